@@ -14,6 +14,7 @@ import json
 import sys
 import time
 from contextlib import contextmanager
+from difflib import get_close_matches
 from functools import partial
 from pathlib import Path
 
@@ -25,6 +26,7 @@ from derive.emit import families
 from derive.files import remove_parts, replace_text
 from derive.language.validate import DescriptionError, validate_outlines
 from derive.packaged import packaged
+from derive.passes.guards import Unguarded
 from meshwright.base.compile import CompileError
 
 EVERY = "all"
@@ -49,6 +51,8 @@ def show(arguments):
     try:
         for drive in _built(options.drive):
             print(text.program(drive, options.after) if options.after else text.description(drive))
+    except BrokenPipeError:  # who reads has seen enough
+        sys.stdout = None
     except (outside.FileError, DescriptionError) as error:
         print(error, file=sys.stderr)
         return 2
@@ -92,13 +96,21 @@ def main(arguments=None):
         print(f"the audit record is damaged: {error}; python -m derive proves it anew", file=sys.stderr)
         return 2
     except OSError as error:
-        place, option = error.filename or options.into or options.output, "--into" if options.into else "--output"
-        print(f"{place}: cannot be written ({error.strerror}); name another folder with {option}", file=sys.stderr)
+        print(_refused(error, options), file=sys.stderr)
         return 2
-    except (outside.FileError, DescriptionError, CompileError, DamagedManifest) as error:
+    except (outside.FileError, DescriptionError, Unguarded, CompileError, DamagedManifest) as error:
         print(error, file=sys.stderr)
         return 2
     return 0
+
+
+def _refused(error, options):
+    """What the system refused, in words: a folder that was named, or a file of the installation."""
+    folder, option = (options.into, "--into") if options.into else (options.output, "--output")
+    place = Path(error.filename or folder)
+    if place.resolve().is_relative_to(folder.resolve()):
+        return f"{place}: cannot be written ({error.strerror}); name another folder with {option}"
+    return f"{place}: cannot be read ({error.strerror}); install meshwright again, whole"
 
 
 def _known(names):
@@ -108,7 +120,10 @@ def _known(names):
         if name.endswith(".py"):
             raise outside.FileError(f"{name}: what a file defines is written to a folder of its own: add --into FOLDER")
         if name not in known:
-            raise outside.FileError(f"no drive {name!r}; known: {', '.join(drives.catalogue())}")
+            every = [*drives.catalogue()]
+            near = get_close_matches(name, every)
+            remedy = f"did you mean {' or '.join(near)}?" if near else f"known: {', '.join(every)}"
+            raise outside.FileError(f"no drive {name!r}; {remedy}")
     return names
 
 

@@ -22,7 +22,14 @@ from pathlib import Path
 from derive.audit.provenance import provenance
 from derive.emit import bounded, c99, certified, certify, lanes, metadata, sensitivity
 from derive.language import description
-from derive.language.validate import validate, validate_normals, validate_ratio, validate_regions
+from derive.language.validate import (
+    validate,
+    validate_limits,
+    validate_normals,
+    validate_place,
+    validate_ratio,
+    validate_regions,
+)
 from derive.passes import enclosed, guards
 from derive.passes.arrange import arrange, side_by_side, unfused
 from derive.passes.completion import at_end
@@ -88,13 +95,16 @@ def define(page):
 
 def checked(plan):
     """Files of a schedule that rest on no proof: path and text. An error unless its normals point out of both bodies,
-    its flanks transmit its ratio, and its regions go on from the flanks.
+    its flanks transmit its ratio, its limits have values and hold at the sample's contact, and its regions go on from
+    the flanks.
     """
     from derive.emit import casadi  # CasADi and NumPy take as long to load as to use
 
     observed = observation(plan)
     validate_normals(plan.drive, observed, plan.sample)
     validate_ratio(plan.drive, observed, plan.sample)
+    validate_limits(plan.drive, observed, plan.sample)
+    validate_place(plan.drive, observed)
     validate_regions(plan.drive, joints(plan))
     c, functions = f"c/{plan.drive.name}", [f for f in guards.functions(plan) if f.name in lanes.KERNELS]
     kernels = arrange(plan, functions, often=lanes.KERNELS)

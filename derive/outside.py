@@ -13,11 +13,14 @@ from functools import partial
 from pathlib import Path
 
 from derive import beside, compiler, drives
-from derive.audit.checker.refusal import Rejected
+from derive.audit.checker.refusal import UNREADABLE, Rejected, Undecided
 from derive.emit import families
 from derive.files import replace_text
 from derive.language.drive import Drive
 from derive.language.validate import DescriptionError
+
+#: What the checker may find: it computed both sides and they agree, or they do not, or it could not compute them.
+HOLDS, FAILS, OPEN = "holds", "does not hold", "not decided"
 
 
 class FileError(ValueError):
@@ -97,9 +100,14 @@ def write(page, name, proved, folder, log, source=None):
             described = json.loads(files[f"c/{name}.json"])
             with log("audit", name):
                 entry = audit_entry(described, open_, found[0](), source)
+            if left := undecided_or_wrong(entry):
+                sys.stderr.write(f"{left}; see {folder / 'audit' / f'{name}.json'}\n")
             with log("compile", name):
                 begun.wait()
-                build.drives([name], fresh, compiler.package(), objects, parts=(build.DRIVE,))
+                try:
+                    build.drives([name], fresh, compiler.package(), objects, parts=(build.DRIVE,))
+                except build.CompileError as error:
+                    raise _not_compiled(name, fresh / "include", str(error)) from error
         # what the table of families says of those of the tree
         described |= families.shared(made)
         files[f"c/{name}.json"] = json.dumps(described, indent=1, ensure_ascii=False) + "\n"
@@ -109,6 +117,27 @@ def write(page, name, proved, folder, log, source=None):
         build.moved(name, fresh, folder)
         # what is beside it was compiled from what was there before
         build.drop_superseded([name], folder, compiler.package())
+
+
+#: The first line in which a C compiler says what is wrong.
+WRONG = re.compile(r"^\S*?(\w+\.[ch]):(\d+):(?:\d+:)? error: (.*)$", re.MULTILINE)
+
+
+def _not_compiled(name, headers, said):
+    """What a C compiler says first of a drive, by the function of the description in which it stands."""
+    found = WRONG.search(said)
+    if found is None:
+        return FileError(f"{name}: {said}")
+    file, line, what = found.groups()
+    where = f"{file}, line {line}"
+    if (headers / file).is_file():
+        lines = (headers / file).read_text("utf-8").splitlines()[: int(line)]
+        begun = re.findall(rf"^static [^;=]*\b{name}_(\w+)\(", "\n".join(lines), re.MULTILINE)
+        where = f"the function {begun[-1]}, {where}" if begun else where
+    return FileError(
+        f"{name}: the C that is made of the description does not compile: {where}: {what}; give what is named there "
+        "another name in the description, or what it lacks"
+    )
 
 
 def _place(path):
@@ -123,8 +152,8 @@ def audit_entry(description, open_, found, source):
     """What is proved for a drive and what is not, as plain data.
 
     ``proved``: the statements of the audit record behind it, by the functions that rest on them. ``not_proved``:
-    statements that it names and the record does not prove, with the reason. ``checked``: see :func:`checked`.
-    ``not_checked``: what nothing here decides.
+    statements that it names and the record does not prove, with the reason. ``checked``: see :func:`checked`;
+    ``counts`` how many of these checks found what. ``not_checked``: what nothing here decides.
     """
     origin = None if source is None else {"file": source.name, "sha256": compiler.sha256(source.read_text("utf-8"))}
     return {
@@ -139,25 +168,53 @@ def audit_entry(description, open_, found, source):
         },
         "not_proved": open_,
         "checked": found,
+        "counts": {word: sum(verdict.startswith(word) for verdict in found.values()) for word in (HOLDS, FAILS, OPEN)},
         "not_checked": [
             "that the description is the drive that is meant: compare it with a source, or with measured parts",
             "conversions of keys, rules and derived sizes: their formulas are taken from the description as they are",
             "start values and limits of the flanks",
+            "curvatures of a flank that keeps an equation of meshing beside it",
+            "generated files beside the header: lanes, changes of parameters, bounded and certified flanks, CasADi",
         ],
     }
 
 
+def undecided_or_wrong(entry):
+    """What the checks of an audit entry found, counted, in words; "" where all holds."""
+    counts = entry["counts"]
+    if counts[HOLDS] == len(entry["checked"]) > 0:
+        return ""
+    found = ", ".join(f"{count} {word}" for word, count in counts.items() if count)
+    return f"{entry['drive']}: checks of the generated C: {found}"
+
+
 def checked(header):
     """What a drive's generated C was found to be by running it modulo a prime (:mod:`derive.audit.checker.check_code`):
-    words → "holds", or why not.
+    words → "holds", "does not hold" or, of what the checker does not foresee, "not decided", with the reason.
     """
-    from derive.audit.checker import attempts, check_code, straight_line  # not loaded where no drive is checked
+    from derive.audit.checker import check_code, straight_line  # not loaded where no drive is checked
 
-    found = {}
-    for words, check in check_code.checks_of(straight_line.read_header(header)):
-        try:
-            attempts.attempt(*check)
-            found[words] = "holds"
-        except (Rejected, LookupError, ValueError) as reason:
-            found[words] = f"does not hold: {reason}"
-    return found
+    try:
+        checks = [*check_code.checks_of(straight_line.read_header(header))]
+    except (Rejected, *UNREADABLE) as reason:
+        return {"generated C as it is read": f"{OPEN}: {_said(reason)}"}
+    return {words: _verdict(check) for words, check in checks}
+
+
+def _verdict(check):
+    from derive.audit.checker import attempts
+
+    try:
+        attempts.attempt(*check)
+    except Undecided as reason:
+        return f"{OPEN}: {reason}"
+    except Rejected as reason:
+        return f"{FAILS}: {reason}"
+    except UNREADABLE as reason:
+        return f"{OPEN}: {_said(reason)}"
+    return HOLDS
+
+
+def _said(reason):
+    """What ended a checker, where that may be an error of Python's with nothing but a key."""
+    return str(reason) if isinstance(reason, Rejected) else f"{type(reason).__name__}: {reason}"

@@ -59,7 +59,7 @@ def test_every_folder_that_a_page_names_is_there():
     for page in PAGES:
         for line in (ROOT / page).read_text(encoding="utf-8").splitlines():
             for name in re.findall(r"`([a-z_]+/)`", line.split("|")[1] if line.startswith("|") else line):
-                places = (ROOT, ROOT / Path(page).parent, ROOT / "runtime" / "c", ROOT / "tests")
+                places = (ROOT, ROOT / Path(page).parent, ROOT / "runtime" / "c", ROOT / "tests", ROOT / "generated")
                 assert any((place / name).is_dir() for place in places), (page, name)
 
 

@@ -498,7 +498,7 @@ METHODS = (
     ),
     Method(
         "bevel_face_hobbed", "face-hobbed bevel or hypoid pair", _hobbed, _hobbed,
-        {"gear.method": "generated", k.blade_groups.key: Count(1)}, SAMPLE_HOBBED, 0.03, hobbed=True,
+        {"gear.method": "generated", k.blade_groups.key: Count(1)}, SAMPLE_HOBBED, 2.2, hobbed=True,
     ),
 )  # fmt: skip
 

@@ -33,6 +33,7 @@ from derive.drives.cylindrical_worm_keys import (
     r_h,
     s,
 )
+from derive.drives.rack_and_pinion import Rack
 from derive.language import vectors as v
 from derive.language.chain import Rx, Ry, Rz, translation
 from derive.language.contact import contact
@@ -40,7 +41,6 @@ from derive.language.definitions import Definitions
 from derive.language.drive import Body, Drive, Loading, Margin, Region, Regrind, Source, System, ToolUse, body_point
 from derive.language.envelope import envelope, explicit, merge_sum
 from derive.language.functions import solid
-from derive.language.rack_and_pinion import Rack
 from derive.language.symbols import Guard, Rule, Unknown, rotation_angle
 from derive.tools.axial_blade import axial_blade
 from derive.tools.grinding_arc import grinding_arc

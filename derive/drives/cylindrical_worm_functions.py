@@ -1,6 +1,6 @@
 """What a cylindrical worm drive offers beside its contact: generation of the wheel, limit points, meshing axes."""
 
-from derive.language import rack_and_pinion as rp
+from derive.drives import rack_and_pinion as rp
 from derive.language import vectors as v
 from derive.language.functions import Function, Result
 from derive.language.origin import joined

@@ -59,6 +59,7 @@ def describe(plan, provenance):
         "rules": _rules(drive),
         "exact_rules": [_terms(drive, rule) for rule in drive.completion],
         "guards": [{"message": g.message, "keys": list(g.keys)} for g in plan.guards],
+        "missing": _missing(drive),
         "outputs": _named(plan.observed),
         "start_unknowns": [plan.unknowns.index(u.symbol) for u in drive.start.unknowns],
         "error": plan.unknowns.index(drive.error),
@@ -227,6 +228,15 @@ def _parameter(drive, p):
         "choices": dict(p.choices),
         "tools": [use.word for use in drive.tools if p.key in use.keys],
     }
+
+
+def _missing(drive):
+    """What a design lacks of which all parameters of an entry are open, numbered on from the guards."""
+    places = {p.place: k for k, p in enumerate(drive.parameters)}
+    alone, together = "missing from the design: give it a value", "all missing from the design: give one a value"
+    groups = [(alone, [p.place]) for p in drive.parameters if p.required]
+    groups += [(together, [*group]) for group in drive.exclusive]
+    return [{"message": words, "keys": keys, "places": [places[key] for key in keys]} for words, keys in groups]
 
 
 def _rules(drive):

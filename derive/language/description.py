@@ -1,7 +1,7 @@
 """A drive's description as plain data: what a checker, the runtime or a page reads instead of our Python.
 
 Expressions are nested prefix lists over named symbols and exact numbers, motions are lists of named factors, surfaces
-the steps by which they were made. ``derive/README.md`` documents the form; nothing in it needs SymPy.
+the steps by which they were made. ``derive/language/description.md`` documents the form; nothing in it needs SymPy.
 """
 
 import json
@@ -257,8 +257,13 @@ def _describe(drive: Drive) -> dict[str, Data]:
         "variant": {
             key: asdict(chosen) if isinstance(chosen, Count) else chosen for key, chosen in drive.variant.items()
         },
+        "variant_defaults": dict(drive.variant_defaults),
+        "handed": drive.handed,
         "sources": sources(drive),
         "keys": [_key(drive, p) for p in drive.parameters],
+        "pinion_teeth": drive.pinion_teeth,
+        "exclusive": [list(group) for group in drive.exclusive],
+        "together": [list(group) for group in drive.together],
         "tools": [
             {"body": use.body, "word": use.word, "name": use.tool.name, "title": use.tool.title, "keys": list(use.keys)}
             for use in drive.tools
@@ -297,6 +302,11 @@ def _describe(drive: Drive) -> dict[str, Data]:
             }
             for f in drive.functions
         ],
+        "ascending_path": drive.ascending_path,
+        "flanks_apart": drive.flanks_apart,
+        "absorbs_errors": drive.absorbs_errors,
+        "least_teeth": {member: asdict(search) for member, search in drive.least_teeth.items()},
+        "tool_clearance": drive.tool_clearance and asdict(drive.tool_clearance),
         "loading": drive.loading and asdict(drive.loading),
         "regrind": drive.regrind and asdict(drive.regrind),
         "sample": {key: str(value) for key, value in drive.sample.items()},

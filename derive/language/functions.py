@@ -11,7 +11,7 @@ undercut_range_M     where undercut is sought: the profile parameter from ``firs
 undercut_place_M     of a surface's parameters: the place on the tool, a result in mm; ``inside`` > 0 on the flank where
                      the margins do not say it
 profile_pinion, profile_tool, profile_range_…, generation, section, tool_point, second_type, meshing_axes, rack_sizes
-                     generation of the wheel by a helicoid: see :mod:`derive.language.rack_and_pinion`
+                     generation of the wheel by a helicoid: see :mod:`derive.drives.rack_and_pinion`
 solid_M              sizes of the solid teeth of a member: see :func:`solid`
 tool_clearance       sizes of a tool of revolution that passes over finished teeth: see :class:`ToolClearance`
 """

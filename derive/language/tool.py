@@ -14,6 +14,7 @@ gives a key of a tool that it does not use is refused.
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from inspect import getmodule
 from typing import Any, cast
 
 import sympy as sp
@@ -59,7 +60,7 @@ class Datum:
 class Tool:
     """A tool: ``make(body, definitions)`` gives what the family wants of it, ``data`` are its own.
 
-    ``title`` is the first line of the function's docstring or of its module's.
+    ``title`` is the first line of the function's docstring or of its module's, else the function's name.
     """
 
     make: Callable[..., Any]
@@ -76,7 +77,8 @@ class Tool:
     @property
     def title(self) -> str:
         """What the tool is, for readers."""
-        return (self._function.__doc__ or "").strip().splitlines()[0]
+        texts = (self._function.__doc__, getattr(getmodule(self._function), "__doc__", None), self.name)
+        return next(filter(None, texts)).strip().splitlines()[0]
 
     @property
     def sample(self) -> dict[str, float | int | str]:

@@ -1,7 +1,8 @@
 """What a description must be before anything is derived from it: every name has one meaning, every limit a known one.
 
 :func:`validate` reads the description alone; :func:`validate_normals` and :func:`validate_ratio` look at a solved
-contact of the sample design, :func:`validate_regions` at the places where fillets and flanks of that design join,
+contact of the sample design, :func:`validate_limits` around it, :func:`validate_sample` at that design itself,
+:func:`validate_regions` at the places where fillets and flanks of that design join,
 :func:`validate_outlines` at what the drives of a family have together.
 """
 
@@ -10,18 +11,21 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import Any, TypeAlias
+from math import isfinite
+from typing import Any, TypeAlias, cast
 
 import mpmath
 import sympy as sp
 
+from derive.language.definitions import Definitions
 from derive.language.differentiate import partial
-from derive.language.drive import PATH, Body, Drive, Margin, Role
+from derive.language.drive import PATH, Body, Drive, Margin, Region, Role
 from derive.language.functions import SOLID, SOLID_UNITS
 from derive.language.outline import OPTIONS, Outline
+from derive.language.printed import misnamed
 from derive.language.sampled import COMPUTED, NoValue, value_of, vanishes
 from derive.language.surface import Surface
-from derive.language.symbols import Parameter, Quantity, Table, foreign_unit, interface_unit, unit_suffixes
+from derive.language.symbols import Parameter, Quantity, Table, Unknown, foreign_unit, interface_unit, unit_suffixes
 from derive.language.vectors import Number
 
 #: The observation of a contact, by name, and its inputs.
@@ -35,6 +39,9 @@ FLAGS = ("", "undercut", "interference", "beyond_regression", "spurious_sheet", 
 #: What may end contact, and what may end a region.
 EVENTS = ("tip", "throat", "face", "root", "tool_end", "undercut", "regression", "fold", "spurious_sheet", "junction",
           "bottom")  # fmt: skip
+
+#: Events that say by themselves what ends the surface.
+OWN_ROLES = frozenset(role.value for role in Role)
 
 
 class DescriptionError(ValueError):
@@ -60,12 +67,20 @@ class Joint:
 def validate(drive: Drive) -> None:
     """Raise :class:`DescriptionError` for the first contradiction in a drive's description."""
     checks = (
-        _keys, _units, _names, _words, _exact, _completion, _guards, _sample, _domains, _systems, _turns, _limits,
-        _solids,
+        _expressed, _keys, _units, _names, _words, _exact, _completion, _guards, _sample, _domains, _systems,
+        _design_systems, _bodies, _functions, _turns, _limits, _solids, misnamed,
     )  # fmt: skip
     for check in checks:
         for message in check(drive):
             raise DescriptionError(f"{drive.name}: {message}")
+
+
+def _expressed(drive: Drive) -> Iterator[str]:
+    """What is to be an expression is one, not None or a text."""
+    for what, value in _expressions(drive):
+        given: object = value if isinstance(value, str) else sp.sympify(value)
+        if not isinstance(given, sp.Expr):
+            yield f"{what} is {value!r}; give an expression of SymPy"
 
 
 def _keys(drive: Drive) -> Iterator[str]:
@@ -205,24 +220,31 @@ def _sample(drive: Drive) -> Iterator[str]:
     for group in drive.exclusive:
         if len(drive.sample.keys() & {*group}) != 1:
             yield f"the sample design must give exactly one of {', '.join(group)}"
+    try:
+        known = isfinite(drive.sample_angle)
+    except TypeError:
+        known = False
+    if not known:
+        yield f"the sample angle is {drive.sample_angle!r}; give the input angle of a contact in rad"
 
 
 def _domains(drive: Drive) -> Iterator[str]:
     for p in drive.parameters:
         if p.default is not None and not _within(p, p.default):
             yield f"the default {p.default} of the key {p.key!r} is outside its domain; change one of them"
-        if (given := drive.sample.get(_in_sample(p))) is None:
+        if _in_sample(p) not in drive.sample:
             continue
+        given = drive.sample[_in_sample(p)]
         try:
             inside = _within(p, sp.Rational(str(given)) * p.factor)
         except (TypeError, ValueError):
-            yield f"the sample design gives {given!r} for {_in_sample(p)!r}; give a number"
+            yield f"the sample design gives {given!r} for {_in_sample(p)!r}; give a number, or leave the key out"
             continue
         if not inside:
             yield f"the sample design gives {given} for {_in_sample(p)!r}, outside its domain; change one of them"
 
 
-def _within(p: Parameter, value: sp.Expr) -> bool:
+def _within(p: Parameter, value: sp.Expr | mpmath.mpf) -> bool:
     """Whether a number, in inner units, is one that the parameter may have."""
     low, high = map(float, p.symbol.domain)
     return low < float(value) < high or p.lower_included and low == float(value)
@@ -236,20 +258,87 @@ def _systems(drive: Drive) -> Iterator[str]:
         yield f"the transmission error {drive.error} is not among the unknowns"
     for missing in unknowns - drive.start.outputs.keys():
         yield f"the start gives no value for the unknown {missing}"
+    for missing in {u.symbol for u in drive.start.unknowns} - drive.guess.keys():
+        yield f"the start has no guess for its unknown {missing}; give one in guess"
     known = unknowns | {p.symbol for p in drive.parameters} | {drive.instant}
     for equation in drive.residual:
         if strangers := _strangers(drive, equation, known):
             yield f"the equations of contact need {', '.join(strangers)}, which nothing gives"
     parameters = {p.symbol for p in drive.parameters}
+    for u in (*drive.unknowns, *drive.start.unknowns):
+        if strangers := _strangers(drive, u.scale, parameters):
+            yield f"the natural size of the unknown {u.symbol} needs {', '.join(strangers)}, which no key gives"
     for what, expression, given in (
         ("the ratio", drive.ratio, parameters),
         ("the wheel's angle", drive.wheel_angle, parameters | {drive.instant, drive.error}),
     ):
         if strangers := _strangers(drive, expression, given):
             yield f"{what} needs {', '.join(strangers)}, which nothing gives"
+    begun = parameters | {drive.instant} | {u.symbol for u in drive.start.unknowns} | drive.start.fixed.keys()
+    parts = [*((f"the start of {symbol}", value) for symbol, value in drive.start.outputs.items())]
+    parts += [("an equation of the start", equation) for equation in drive.start.residual]
+    parts += [(f"the guess of {symbol}", value) for symbol, value in drive.guess.items()]
+    for what, expression in parts:
+        if strangers := _strangers(drive, expression, begun):
+            yield f"{what} needs {', '.join(strangers)}, which neither design nor input angle gives"
+
+
+def _design_systems(drive: Drive) -> Iterator[str]:
+    parameters, keys = {p.symbol for p in drive.parameters}, _places(drive)
     for system in drive.systems:
+        where, unknowns = f"the design system {system.name}", {u.symbol for u in system.unknowns}
         for target in system.fills.keys() - parameters:
-            yield f"the design system {system.name} fills {target}, which is no parameter"
+            yield f"{where} fills {target}, which is no parameter"
+        if len(system.residual) != len(system.unknowns):
+            yield f"{where} has {len(system.residual)} equations for {len(system.unknowns)} unknowns"
+        for missing in unknowns - system.guess.keys():
+            yield f"{where} has no guess for its unknown {missing}; give one in guess"
+        for key in system.keys:
+            if key not in keys:
+                yield f"{where} names the key {key!r}, which is not declared"
+        known = parameters | unknowns | {PATH} | system.fixed.keys()
+        sign = [*system.regular[0].body_point, system.regular[1]] if system.regular else []
+        for expression in (*system.residual, *system.guess.values(), *system.fills.values(), *sign):
+            if strangers := sorted(q.name for q in system.definitions.free(expression) if q not in known):
+                yield f"{where} needs {', '.join(strangers)}, which is no key and none of its unknowns"
+
+
+def _functions(drive: Drive) -> Iterator[str]:
+    parameters = {p.symbol for p in drive.parameters}
+    keys = _places(drive) | {f"{p.table}.{p.key}" for p in drive.parameters}
+    for f in drive.functions:
+        for name, value in ((r.name, value) for r in f.results for value in r.values):
+            if strangers := _strangers(drive, value, parameters | {*f.arguments}):
+                yield f"{name!r} of {f.name} needs {', '.join(strangers)}, which neither its arguments nor a key gives"
+    for member, least in drive.least_teeth.items():
+        if member not in [body.name for body in drive.bodies]:
+            yield f"least_teeth names the member {member!r}, which is not there"
+        for key in (least.teeth, *least.proportional):
+            if key not in keys:
+                yield f"least_teeth of the {member} names the key {key!r}, which is not declared"
+    for what, key in drive.loading.keys.items() if drive.loading else ():
+        if key not in keys:
+            yield f"loading: {what} names the key {key!r}, which is not declared"
+
+
+def _bodies(drive: Drive) -> Iterator[str]:
+    """Members are called by the names that every command knows; what a surface is said to be is known of it."""
+    parameters = {p.symbol for p in drive.parameters}
+    for body, name in zip(drive.bodies, ("pinion", "wheel"), strict=True):
+        if body.name != name:
+            yield f"the member {name} is named {body.name!r}; name it {name!r}"
+        own = parameters | {*body.surface.parameters}
+        for q in body.recovered:
+            if strangers := _strangers(drive, q, own):
+                yield f"the {name} recovers {', '.join(strangers)}, which nothing gives"
+        if body.regular is None and (missing := {*body.surface.parameters} - body.reference.keys()):
+            names = ", ".join(sorted(q.name for q in missing))
+            yield f"the {name} has no sign `regular`, and its reference point gives no {names}; give either"
+    for member in (*drive.bodies, *drive.regions):
+        if member.regular is not None:
+            known = parameters | {*member.surface.parameters}
+            if strangers := _strangers(drive, member.regular, known):
+                yield f"the sign `regular` of the {member.name} needs {', '.join(strangers)}, which nothing gives"
 
 
 def _turns(drive: Drive) -> Iterator[str]:
@@ -334,11 +423,23 @@ def _expressions(drive: Drive) -> Iterator[tuple[str, Number]]:
     yield from ((f"the size {name}", value) for name, value, _ in drive.sizes)
     yield from (("an equation of contact", equation) for equation in drive.residual)
     yield from ((f"the start of {symbol}", value) for symbol, value in drive.start.outputs.items())
+    yield from (("an equation of the start", equation) for equation in drive.start.residual)
+    yield from ((f"the guess of {symbol}", value) for symbol, value in drive.guess.items())
+    yield from ((f"the natural size of the unknown {u.symbol}", u.scale) for u, _ in _unknowns(drive))
     yield from (("the ratio", drive.ratio), ("the wheel's angle", drive.wheel_angle))
+    yield ("the reference angle", drive.reference_angle)
     for member in (*drive.bodies, *drive.regions):
+        if isinstance(member, Region) or member.regular is not None:
+            yield f"the sign `regular` of the {member.name}", cast("Number", member.regular)
         yield from ((f"the limit {m.event!r} of the {member.name}", m.positive) for m in member.margins)
     for function in drive.functions:
         yield from ((f"{r.name} of {function.name}", value) for r in function.results for value in r.values)
+
+
+def _unknowns(drive: Drive) -> Iterator[tuple[Unknown, Definitions]]:
+    """The unknowns of contact, start and design systems, and what their natural sizes may name."""
+    yield from ((u, drive.definitions) for u in (*drive.unknowns, *drive.start.unknowns))
+    yield from ((u, system.definitions) for system in drive.systems for u in system.unknowns)
 
 
 def _limits(drive: Drive) -> Iterator[str]:
@@ -358,17 +459,135 @@ def _limits(drive: Drive) -> Iterator[str]:
                 yield f"{where} has the unknown flag {m.flag!r}; use one of {', '.join(filter(None, FLAGS))}"
             if not isinstance(m.role, Role):
                 yield f"{where} has the unknown role {m.role!r}; use one of {', '.join(r.name for r in Role)}"
+            elif m.role is Role.JUNCTION and not m.joins:
+                yield f"{where} is a junction and joins nothing; name the region of the {member} that goes on there"
+            elif m.role is not Role.JUNCTION and m.event in OWN_ROLES and m.role.value != m.event:
+                yield f"{where} has the role {m.role.name} of another event; leave the role out, or name that event"
             if strangers := _strangers(drive, m.positive, known):
                 yield f"{where} needs {', '.join(strangers)}, which neither surface nor design gives"
             if m.along is not None and m.along not in surface.parameters:
                 yield f"{where} runs along {m.along}, which is no parameter of the surface"
             if m.joins and (member, m.joins) not in there:
                 yield f"{where} joins the region {m.joins!r}, which the {member} does not have"
+        for event, count in Counter(m.event for m in margins).items():
+            if count > 1:
+                yield f"the {member}'s {name} has {count} limits {event!r}; give each an event of its own, or join them"
         if len(surface.parameters) != len(surface.conditions) + 2:
             count = f"{len(surface.parameters)} parameters for {len(surface.conditions)} conditions"
             yield f"the {member}'s {name} has {count}; a surface has two more"
     if sp.sympify(drive.ratio).is_zero:
         yield "the ratio is zero"
+
+
+def validate_sample(drive: Drive, values: Numbers) -> None:
+    """Raise :class:`DescriptionError` for a sample design that is none of the drive's own: outside a domain once its
+    rules are applied, against a guard, or without a natural size for an unknown.
+
+    ``values``: the parameters of the sample design, completed, symbol → number.
+    """
+    for message in _of_sample(drive, values):
+        raise DescriptionError(f"{drive.name}: {message}")
+
+
+def _of_sample(drive: Drive, values: Numbers) -> Iterator[str]:
+    for p in drive.parameters:
+        if not mpmath.isnan(value := values[p.symbol]) and not _within(p, value):
+            shown = _shown(value / value_of(p.factor, values, drive.definitions))
+            yield f"the key {p.place!r} of the sample design follows as {shown}, outside its domain; {_MEND}"
+    for guard in drive.guards:
+        value = _value_at(guard.positive, values, drive.definitions)
+        if not value > 0:
+            yield (
+                f"the sample design breaks the guard {guard.message!r} of {', '.join(guard.keys)}: what must be above "
+                f"0 is {_shown(value)}; {_MEND}"
+            )
+    for u, definitions in _unknowns(drive):
+        size = _value_at(u.scale, values, definitions)
+        if not (size > 0 and mpmath.isfinite(size)):
+            yield (
+                f"the natural size of the unknown {u.symbol} is {_shown(size)} at the sample design; give one that is "
+                "above 0 at every design"
+            )
+
+
+#: What helps where a sample is no legal design.
+_MEND = "correct it, or choose another sample design"
+
+
+def _shown(value: mpmath.mpf) -> str:
+    return "no real number" if mpmath.isnan(value) else f"{float(value):.6g}"
+
+
+def _value_at(expression: Number, values: Numbers, definitions: Definitions) -> mpmath.mpf:
+    """Value of an expression, NaN where it has none."""
+    try:
+        return value_of(expression, values, definitions)
+    except NoValue:
+        return mpmath.nan
+
+
+def validate_place(drive: Drive, observed: Observed) -> None:
+    """Raise :class:`DescriptionError` where the sample's contact is none of real teeth: beyond a limit of a flank, or
+    on another sheet of its surface. Pivots are chosen there, and normals and ratio looked at.
+
+    ``observed`` as of :func:`validate_normals`. A limit without a value there is not applied.
+    """
+    for body in drive.bodies:
+        (regular,) = observed[f"regular_{body.name}"]
+        off = [f"its singular function is {_shown(regular)} there"] if regular < 0 else []
+        for m in body.margins:
+            (margin,) = observed[f"margin_{body.name}_{m.event}"]
+            off += [f"its limit {m.event!r} is {_shown(margin)} there"] if margin < 0 else []
+        if off:
+            raise DescriptionError(
+                f"{drive.name}: at the sample angle {float(drive.sample_angle):.6g} the contact is not on the "
+                f"{body.name}'s tooth: {', '.join(off)}, which must not be below 0; choose another sample angle or "
+                "design, or turn the sign of what is negative"
+            )
+
+
+#: Places at which a limit is evaluated that has no value at the contact.
+TRIED = 96
+
+
+def validate_limits(drive: Drive, observed: Observed, values: Numbers) -> None:
+    """Raise :class:`DescriptionError` for a limit that has no value anywhere, which no point would ever violate.
+
+    Arguments as of :func:`validate_normals`. Looked at are the contact and places around it and around zero, near and
+    far. A limit that needs a key which the sample leaves open is not applied, nor looked at.
+    """
+    reach = max(abs(c) for body in drive.bodies for c in observed[f"point_{body.name}"])
+    for place in (*drive.bodies, *drive.regions):
+        at: dict[sp.Symbol, mpmath.mpf] = {**values}
+        own = [*place.surface.parameters]
+        if isinstance(place, Body):
+            own += place.point
+            at |= dict(zip(place.point, observed[f"point_{place.name}"], strict=bool(place.point)))
+        for m in place.margins:
+            needed = drive.definitions.free(m.positive)
+            if any(mpmath.isnan(values[q]) for q in needed if q in values):
+                continue
+            moved = [q for q in own if q in needed]
+            places = _around(at, moved, reach)
+            if all(mpmath.isnan(_value_at(m.positive, there, drive.definitions)) for there in places):
+                where = place.name if isinstance(place, Body) else f"{place.member}'s {place.name}"
+                raise DescriptionError(
+                    f"{drive.name}: the limit {m.event!r} of the {where} is no real number, neither at the sample's "
+                    "contact nor anywhere around: it would never be applied; correct it or leave it out"
+                )
+
+
+def _around(at: Numbers, moved: Sequence[Quantity], reach: mpmath.mpf) -> Iterator[Numbers]:
+    """Places: where it is known the contact, then others within a few sizes of it and of zero, in three decades."""
+    if all(q in at for q in moved):
+        yield at
+    for k in range(1, TRIED if moved else 1):
+        there = {**at}
+        for n, q in enumerate(moved):
+            turns = k * mpmath.sqrt(sp.prime(n + 1))
+            size = (reach if q.unit == "mm" else mpmath.mpf(1)) / 10 ** (k % 3)
+            there[q] = (at.get(q, mpmath.mpf(0)) if k % 2 else 0) + size * (4 * (turns - mpmath.floor(turns)) - 2)
+        yield there
 
 
 #: Components of two opposite unit normals add up to less than this: the sample's contact is solved in many digits.

@@ -45,8 +45,8 @@ class _Place:
     def way(self) -> Row:
         """The unit direction across the joint in which the margin there grows, its conditions kept."""
         # least |tangents · q| with slopes · q = (1, 0 …): Lagrange's equations, each parameter in lengths of its own
-        lengths = [math.hypot(*t) for t in self.tangents]
-        tangents = [_unit(t) for t in self.tangents]
+        lengths = [math.hypot(*t) or 1.0 for t in self.tangents]  # a condition's own parameter may move no point
+        tangents = [[c / length for c in t] for t, length in zip(self.tangents, lengths, strict=True)]
         slopes = [_unit([s / length for s, length in zip(row, lengths, strict=True)]) for row in self.slopes]
         rows = [[_dot(a, b) for b in tangents] + [row[k] for row in slopes] for k, a in enumerate(tangents)]
         rows += [[*row, *[0.0] * len(slopes)] for row in slopes]

@@ -30,13 +30,11 @@ def by_reciprocal(tape: Tape, computed: Iterable[int], known: Iterable[int]) -> 
     """Quotient → its dividend and the reciprocal of its divisor, in a function that computes these nodes from those
     that it is given.
     """
-    one, order, nodes = tape.constant(1), {*computed}, tape.nodes
-    factors: dict[int, tuple[int, int]] = {}
-    quotients = [i for i in order if nodes[i].op == "div" and nodes[i].args[0] != one]
-    at_hand = order.union(known) if quotients else order
-    for i in quotients:
-        dividend, divisor = nodes[i].args
-        reciprocal = tape.find("div", one, divisor)
-        if reciprocal is not None and reciprocal in at_hand:
-            factors[i] = (dividend, reciprocal)
-    return factors
+    nodes, order = tape.nodes, {*computed}
+    divisions = [i for i in order if nodes[i].op == "div"]
+    quotients = [i for i in divisions if tape.const_value(nodes[i].args[0]) != 1]
+    if not quotients:
+        return {}
+    given = (i for i in known if nodes[i].op == "div")
+    reciprocals = {nodes[i].args[1]: i for i in (*divisions, *given) if tape.const_value(nodes[i].args[0]) == 1}
+    return {i: (nodes[i].args[0], reciprocals[nodes[i].args[1]]) for i in quotients if nodes[i].args[1] in reciprocals}

@@ -11,7 +11,7 @@ import sympy as sp
 
 from derive.language.drive import PATH, Drive
 from derive.language.symbols import Table
-from derive.language.validate import DescriptionError
+from derive.language.validate import DescriptionError, validate_sample
 from derive.passes.completion import SystemTape, lower_system
 from derive.passes.plan import Derived, Observed
 from derive.program.lowering import Lowering
@@ -106,7 +106,9 @@ def _complete(plan: SystemTape, values: Values, arithmetic: Arithmetic) -> None:
 def sample_contact(plan: Derived) -> Values:
     """Inputs (symbol → number) at a solved contact of the sample design."""
     with mpmath.workdps(DIGITS), _of(plan.drive):
-        return solve(plan, sample_parameters(plan.drive, plan.systems), plan.drive.sample_angle)
+        parameters = sample_parameters(plan.drive, plan.systems)
+        validate_sample(plan.drive, parameters)
+        return solve(plan, parameters, plan.drive.sample_angle)
 
 
 @contextmanager

@@ -114,7 +114,7 @@ typedef struct mw_model {
     const mw_body *bodies;       /* pinion, wheel */
     void (*derive)(double *p);                                  /* fill in defaults and derived values */
     void (*size)(const double *p, double *d);
-    int (*setup)(const double *p, double *s);                   /* 0, or 1 + index of the guard that fails */
+    int (*setup)(const double *p, double *s);                   /* 0, or 1 + index of the guard that fails; beyond: of what is missing */
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
@@ -208,6 +208,7 @@ typedef struct mw_contact {
 #define bevel_formate_NO 60
 #define bevel_formate_ND 1
 #define bevel_formate_NSTART 0
+#define bevel_formate_NFLAGS 8
 #define bevel_formate_NANCHOR 21
 #define bevel_formate_NEAREST 3.814697265625e-06
 #define bevel_formate_ABI 6
@@ -1611,8 +1612,36 @@ static inline void bevel_formate_size(const double *p, double *d)
 #pragma GCC pop_options
 #endif
 
-/* Design stage: p[bevel_formate_NP] complete; s[bevel_formate_NS], the parameters themselves at its end. Returns 0, or 1 + the index of
- * the guard that does not hold. */
+/* Of parameters that bevel_formate_derive leaves open: the number of the text in bevel_formate_guard_texts that names keys which the
+ * design lacks; else `otherwise`. */
+static inline int bevel_formate_missing(const double *p, int otherwise)
+{
+    if (p[1] != p[1]) return 18;
+    if (p[2] != p[2]) return 19;
+    if (p[5] != p[5]) return 20;
+    if (p[6] != p[6]) return 21;
+    if (p[10] != p[10]) return 22;
+    if (p[11] != p[11]) return 23;
+    if (p[14] != p[14]) return 24;
+    if (p[18] != p[18]) return 25;
+    if (p[25] != p[25]) return 26;
+    if (p[27] != p[27]) return 27;
+    if (p[29] != p[29]) return 28;
+    if (p[30] != p[30]) return 29;
+    if (p[31] != p[31]) return 30;
+    if (p[32] != p[32]) return 31;
+    if (p[36] != p[36]) return 32;
+    if (p[37] != p[37]) return 33;
+    if (p[40] != p[40]) return 34;
+    if (p[44] != p[44]) return 35;
+    if (p[46] != p[46]) return 36;
+    if (p[48] != p[48]) return 37;
+    if (p[49] != p[49]) return 38;
+    return otherwise;
+}
+
+/* Design stage: p[bevel_formate_NP] complete; s[bevel_formate_NS], the parameters themselves at its end. Returns 0, or 1 + the index in
+ * bevel_formate_guard_texts of what does not hold: of a key that is missing first. */
 /* Equations: derivation/quotient, derivation/root, derivation/arc, derivation/step-size. */
 static inline int bevel_formate_setup(const double *p, double *s)
 {
@@ -2159,7 +2188,7 @@ static inline int bevel_formate_setup(const double *p, double *s)
     s[228] = p[67];
     s[229] = p[68];
     s[230] = p[69];
-    return failed;
+    return failed ? bevel_formate_missing(p, failed) : 0;
 }
 
 /* Instant stage: input angle phi, rad. */
@@ -8297,6 +8326,27 @@ static const char *const bevel_formate_guard_texts[] = {
     "a division by zero: cos(alpha_gear) + cosine_joint_gear must not be 0 (gear.blade_angle_deg, gear.blade_curvature_per_mm, gear.blade_reference_mm, gear.edge_radius_mm)",
     "a division by zero: cos(alpha_pinion)·cosine_joint_pinion + (1 + sin(alpha_pinion)·(… + …)) must not be 0 (pinion.blade_angle_deg, pinion.blade_curvature_per_mm, pinion.blade_reference_mm, pinion.edge_radius_mm)",
     "a value that the contact needs is missing or not finite (pinion_teeth, gear_teeth, pinion.point_radius_mm, pinion.blade_angle_deg, pinion.radial_setting_mm, pinion.cradle_angle_deg, pinion.root_angle_deg, pinion.ratio_of_roll, pinion.pitch_angle_deg, pinion.face_angle_deg, pinion.outer_cone_distance_mm, pinion.face_width_mm, gear.point_radius_mm, gear.blade_angle_deg, gear.radial_setting_mm, gear.cradle_angle_deg, gear.root_angle_deg, gear.pitch_angle_deg, gear.face_angle_deg, gear.outer_cone_distance_mm, gear.face_width_mm)",
+    "pinion_teeth: missing from the design: give it a value",
+    "gear_teeth: missing from the design: give it a value",
+    "pinion.point_radius_mm: missing from the design: give it a value",
+    "pinion.blade_angle_deg: missing from the design: give it a value",
+    "pinion.radial_setting_mm: missing from the design: give it a value",
+    "pinion.cradle_angle_deg: missing from the design: give it a value",
+    "pinion.root_angle_deg: missing from the design: give it a value",
+    "pinion.ratio_of_roll: missing from the design: give it a value",
+    "pinion.pitch_angle_deg: missing from the design: give it a value",
+    "pinion.face_angle_deg: missing from the design: give it a value",
+    "pinion.outer_cone_distance_mm: missing from the design: give it a value",
+    "pinion.face_width_mm: missing from the design: give it a value",
+    "gear.point_radius_mm: missing from the design: give it a value",
+    "gear.blade_angle_deg: missing from the design: give it a value",
+    "gear.radial_setting_mm: missing from the design: give it a value",
+    "gear.cradle_angle_deg: missing from the design: give it a value",
+    "gear.root_angle_deg: missing from the design: give it a value",
+    "gear.pitch_angle_deg: missing from the design: give it a value",
+    "gear.face_angle_deg: missing from the design: give it a value",
+    "gear.outer_cone_distance_mm: missing from the design: give it a value",
+    "gear.face_width_mm: missing from the design: give it a value",
 };
 static const int bevel_formate_pinion_unknowns[] = { 0, 1 };
 static const char *const bevel_formate_pinion_flags[] = { "off_tip", "off_face", "off_root", NULL };
@@ -8714,6 +8764,17 @@ static inline const char *mwi_flag(const mw_model *m, int bit)
     for (int b = 0; b < 2; bit -= m->bodies[b].margins, b++)
         if (bit < m->bodies[b].margins) return m->bodies[b].flags[bit];
     return NULL;
+}
+static inline int mwi_flags(const mw_model *m, unsigned flags, const char **names)
+{
+    int count = 0;
+    const char *name;
+    for (int bit = 0; (name = mwi_flag(m, bit)) != NULL; bit++) {
+        int known = !(flags >> bit & 1u);
+        for (int k = 0; k < count && !known; k++) known = mwi_same_text(names[k], name);
+        if (!known) names[count++] = name;
+    }
+    return count;
 }
 static inline int mwi_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c)
 {
@@ -9443,12 +9504,16 @@ static inline int mwi_solve(const mw_model *m, const double *p, double phi, doub
 #endif
 
 /* Complete a design: p[bevel_formate_NP] with open numbers NaN, in mm and rad; info may be NULL. Rules and defaults, then what the
- * design leaves to equations of its own. Returns 0, or 1 + k where bevel_formate_model.systems[k] has no solution. */
+ * design leaves to equations of its own. Returns 0, or 1 + k where bevel_formate_model.systems[k] has no solution. Where the design
+ * lacks keys nothing is solved: bevel_formate_setup then names them, and info->guard is what it returns. */
 static inline int bevel_formate_solve_design(double *p, mw_info *info)
 {
     double work[bevel_formate_NP + 1];
     mw_info unused;
-    return mwi_complete(&bevel_formate_model, p, work, info ? info : &unused);
+    mw_info *const record = info ? info : &unused;
+    bevel_formate_derive(p);
+    *record = mwi_ended(MW_BAD_INPUT, bevel_formate_missing(p, 0));
+    return record->guard ? 0 : mwi_complete(&bevel_formate_model, p, work, record);
 }
 
 /* The contact at input angle phi, rad: s[bevel_formate_NS] from bevel_formate_setup, left set up for phi; x[bevel_formate_NX] result; info may be
@@ -9463,18 +9528,25 @@ static inline int bevel_formate_solve(double *s, double phi, double *x, mw_info 
     return mwi_solve(&bevel_formate_model, p, phi, s, work, x, record);
 }
 
-/* Contact geometry at a solution x of bevel_formate_solve, s as it left it; o[bevel_formate_NO] as of bevel_formate_observe. contact->flags bit
- * k is called bevel_formate_flag(k). Returns MW_CONVERGED or MW_LINE_CONTACT, or why x is no contact. */
+/* Contact geometry at a solution x of bevel_formate_solve, s as it left it; o[bevel_formate_NO] as of bevel_formate_observe. bevel_formate_flags has the
+ * names of contact->flags. Returns MW_CONVERGED or MW_LINE_CONTACT, or why x is no contact. */
 static inline int bevel_formate_geometry(const double *s, const double *x, double *o, mw_contact *contact)
 {
     const int kind = mwi_contact_at(&bevel_formate_model, s, x, o, contact), touch = mwi_touch(&bevel_formate_model, x, o);
     return touch < 0 ? touch : kind;
 }
 
-/* Name of a flag by its bit, NULL where there is none; the margins of a contact are flagged where they are negative. */
+/* Name of a flag by the number of its bit, 0 for the lowest, not by contact->flags, in which several are set at once; NULL where
+ * there is none. The margins of a contact are flagged where they are negative. */
 static inline const char *bevel_formate_flag(int bit)
 {
     return mwi_flag(&bevel_formate_model, bit);
+}
+
+/* Names of all flags that are set in contact->flags, each once: names[bevel_formate_NFLAGS]. Returns how many. */
+static inline int bevel_formate_flags(unsigned flags, const char **names)
+{
+    return mwi_flags(&bevel_formate_model, flags, names);
 }
 
 /* What a status means: the word used in results, and a sentence. */

@@ -117,7 +117,7 @@ typedef struct mw_model {
     const mw_body *bodies;       /* pinion, wheel */
     void (*derive)(double *p);                                  /* fill in defaults and derived values */
     void (*size)(const double *p, double *d);
-    int (*setup)(const double *p, double *s);                   /* 0, or 1 + index of the guard that fails */
+    int (*setup)(const double *p, double *s);                   /* 0, or 1 + index of the guard that fails; beyond: of what is missing */
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
@@ -211,6 +211,7 @@ typedef struct mw_contact {
 #define cylindrical_gears_NO 61
 #define cylindrical_gears_ND 23
 #define cylindrical_gears_NSTART 0
+#define cylindrical_gears_NFLAGS 8
 #define cylindrical_gears_NANCHOR 6
 #define cylindrical_gears_NEAREST 3.814697265625e-06
 #define cylindrical_gears_ABI 6
@@ -1118,8 +1119,20 @@ static inline void cylindrical_gears_size(const double *p, double *d)
 #pragma GCC pop_options
 #endif
 
-/* Design stage: p[cylindrical_gears_NP] complete; s[cylindrical_gears_NS], the parameters themselves at its end. Returns 0, or 1 + the index of
- * the guard that does not hold. */
+/* Of parameters that cylindrical_gears_derive leaves open: the number of the text in cylindrical_gears_guard_texts that names keys which the
+ * design lacks; else `otherwise`. */
+static inline int cylindrical_gears_missing(const double *p, int otherwise)
+{
+    if (p[1] != p[1]) return 44;
+    if (p[2] != p[2]) return 45;
+    if (p[5] != p[5]) return 46;
+    if (p[9] != p[9]) return 47;
+    if (p[22] != p[22]) return 48;
+    return otherwise;
+}
+
+/* Design stage: p[cylindrical_gears_NP] complete; s[cylindrical_gears_NS], the parameters themselves at its end. Returns 0, or 1 + the index in
+ * cylindrical_gears_guard_texts of what does not hold: of a key that is missing first. */
 /* Equations: derivation/quotient, derivation/root, derivation/arc, derivation/tangent, derivation/explicit,
  *   derivation/relative, derivation/step-size. */
 static inline int cylindrical_gears_setup(const double *p, double *s)
@@ -2504,7 +2517,7 @@ static inline int cylindrical_gears_setup(const double *p, double *s)
     s[246] = p[39];
     s[247] = p[40];
     s[248] = p[41];
-    return failed;
+    return failed ? cylindrical_gears_missing(p, failed) : 0;
 }
 
 /* Instant stage: input angle phi, rad. */
@@ -7468,6 +7481,11 @@ static const char *const cylindrical_gears_guard_texts[] = {
     "a division by zero: (…/… + …/…)·((1/2)·(1 + …))·((A + dA)·start_n_x) + ((1/2)·(1 + sign(…)) + start_slope·start_slope) must not be 0 (normal_module_mm, pressure_angle_deg, shaft_angle_deg, center_distance_mm, pinion_teeth, pinion_helix_angle_deg, pinion_face_width_mm, pinion_lead_crowning_um, wheel_teeth, wheel_helix_angle_deg, wheel_face_width_mm, wheel_lead_crowning_um, misalignment.center_distance_mm)",
     "a division by zero: sin(alpha)/cos(beta_wheel) + cos(alpha)·cos(alpha)·cos(beta_wheel)/sin(alpha) must not be 0 (pressure_angle_deg, wheel_helix_angle_deg)",
     "a value that the contact needs is missing or not finite (normal_module_mm, pressure_angle_deg, face_width_mm, pinion_teeth, wheel_teeth)",
+    "normal_module_mm: missing from the design: give it a value",
+    "pressure_angle_deg: missing from the design: give it a value",
+    "face_width_mm: missing from the design: give it a value",
+    "pinion_teeth: missing from the design: give it a value",
+    "wheel_teeth: missing from the design: give it a value",
 };
 static const int cylindrical_gears_pinion_unknowns[] = { 0, 1 };
 static const char *const cylindrical_gears_pinion_flags[] = { "off_tip", "off_face", "off_root", NULL };
@@ -7889,6 +7907,17 @@ static inline const char *mwi_flag(const mw_model *m, int bit)
     for (int b = 0; b < 2; bit -= m->bodies[b].margins, b++)
         if (bit < m->bodies[b].margins) return m->bodies[b].flags[bit];
     return NULL;
+}
+static inline int mwi_flags(const mw_model *m, unsigned flags, const char **names)
+{
+    int count = 0;
+    const char *name;
+    for (int bit = 0; (name = mwi_flag(m, bit)) != NULL; bit++) {
+        int known = !(flags >> bit & 1u);
+        for (int k = 0; k < count && !known; k++) known = mwi_same_text(names[k], name);
+        if (!known) names[count++] = name;
+    }
+    return count;
 }
 static inline int mwi_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c)
 {
@@ -8618,12 +8647,16 @@ static inline int mwi_solve(const mw_model *m, const double *p, double phi, doub
 #endif
 
 /* Complete a design: p[cylindrical_gears_NP] with open numbers NaN, in mm and rad; info may be NULL. Rules and defaults, then what the
- * design leaves to equations of its own. Returns 0, or 1 + k where cylindrical_gears_model.systems[k] has no solution. */
+ * design leaves to equations of its own. Returns 0, or 1 + k where cylindrical_gears_model.systems[k] has no solution. Where the design
+ * lacks keys nothing is solved: cylindrical_gears_setup then names them, and info->guard is what it returns. */
 static inline int cylindrical_gears_solve_design(double *p, mw_info *info)
 {
     double work[cylindrical_gears_NP + 1];
     mw_info unused;
-    return mwi_complete(&cylindrical_gears_model, p, work, info ? info : &unused);
+    mw_info *const record = info ? info : &unused;
+    cylindrical_gears_derive(p);
+    *record = mwi_ended(MW_BAD_INPUT, cylindrical_gears_missing(p, 0));
+    return record->guard ? 0 : mwi_complete(&cylindrical_gears_model, p, work, record);
 }
 
 /* The contact at input angle phi, rad: s[cylindrical_gears_NS] from cylindrical_gears_setup, left set up for phi; x[cylindrical_gears_NX] result; info may be
@@ -8638,18 +8671,25 @@ static inline int cylindrical_gears_solve(double *s, double phi, double *x, mw_i
     return mwi_solve(&cylindrical_gears_model, p, phi, s, work, x, record);
 }
 
-/* Contact geometry at a solution x of cylindrical_gears_solve, s as it left it; o[cylindrical_gears_NO] as of cylindrical_gears_observe. contact->flags bit
- * k is called cylindrical_gears_flag(k). Returns MW_CONVERGED or MW_LINE_CONTACT, or why x is no contact. */
+/* Contact geometry at a solution x of cylindrical_gears_solve, s as it left it; o[cylindrical_gears_NO] as of cylindrical_gears_observe. cylindrical_gears_flags has the
+ * names of contact->flags. Returns MW_CONVERGED or MW_LINE_CONTACT, or why x is no contact. */
 static inline int cylindrical_gears_geometry(const double *s, const double *x, double *o, mw_contact *contact)
 {
     const int kind = mwi_contact_at(&cylindrical_gears_model, s, x, o, contact), touch = mwi_touch(&cylindrical_gears_model, x, o);
     return touch < 0 ? touch : kind;
 }
 
-/* Name of a flag by its bit, NULL where there is none; the margins of a contact are flagged where they are negative. */
+/* Name of a flag by the number of its bit, 0 for the lowest, not by contact->flags, in which several are set at once; NULL where
+ * there is none. The margins of a contact are flagged where they are negative. */
 static inline const char *cylindrical_gears_flag(int bit)
 {
     return mwi_flag(&cylindrical_gears_model, bit);
+}
+
+/* Names of all flags that are set in contact->flags, each once: names[cylindrical_gears_NFLAGS]. Returns how many. */
+static inline int cylindrical_gears_flags(unsigned flags, const char **names)
+{
+    return mwi_flags(&cylindrical_gears_model, flags, names);
 }
 
 /* What a status means: the word used in results, and a sentence. */

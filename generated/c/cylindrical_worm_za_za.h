@@ -134,7 +134,7 @@ typedef struct mw_model {
     const mw_body *bodies;       /* pinion, wheel */
     void (*derive)(double *p);                                  /* fill in defaults and derived values */
     void (*size)(const double *p, double *d);
-    int (*setup)(const double *p, double *s);                   /* 0, or 1 + index of the guard that fails */
+    int (*setup)(const double *p, double *s);                   /* 0, or 1 + index of the guard that fails; beyond: of what is missing */
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
@@ -228,6 +228,7 @@ typedef struct mw_contact {
 #define cylindrical_worm_za_za_NO 62
 #define cylindrical_worm_za_za_ND 7
 #define cylindrical_worm_za_za_NSTART 2
+#define cylindrical_worm_za_za_NFLAGS 9
 #define cylindrical_worm_za_za_NANCHOR 9
 #define cylindrical_worm_za_za_NEAREST 3.814697265625e-06
 #define cylindrical_worm_za_za_ABI 6
@@ -614,8 +615,20 @@ static inline void cylindrical_worm_za_za_size(const double *p, double *d)
 #pragma GCC pop_options
 #endif
 
-/* Design stage: p[cylindrical_worm_za_za_NP] complete; s[cylindrical_worm_za_za_NS], the parameters themselves at its end. Returns 0, or 1 + the index of
- * the guard that does not hold. */
+/* Of parameters that cylindrical_worm_za_za_derive leaves open: the number of the text in cylindrical_worm_za_za_guard_texts that names keys which the
+ * design lacks; else `otherwise`. */
+static inline int cylindrical_worm_za_za_missing(const double *p, int otherwise)
+{
+    if (p[3] != p[3]) return 21;
+    if (p[4] != p[4]) return 22;
+    if (p[7] != p[7]) return 23;
+    if (p[1] != p[1] && p[2] != p[2]) return 24;
+    if (p[5] != p[5] && p[6] != p[6]) return 25;
+    return otherwise;
+}
+
+/* Design stage: p[cylindrical_worm_za_za_NP] complete; s[cylindrical_worm_za_za_NS], the parameters themselves at its end. Returns 0, or 1 + the index in
+ * cylindrical_worm_za_za_guard_texts of what does not hold: of a key that is missing first. */
 /* Equations: derivation/quotient, derivation/tangent, derivation/explicit, derivation/relative, derivation/step-size,
  *   derivation/root. */
 static inline int cylindrical_worm_za_za_setup(const double *p, double *s)
@@ -1133,7 +1146,7 @@ static inline int cylindrical_worm_za_za_setup(const double *p, double *s)
     s[147] = p[28];
     s[148] = p[29];
     s[149] = p[30];
-    return failed;
+    return failed ? cylindrical_worm_za_za_missing(p, failed) : 0;
 }
 
 /* Instant stage: input angle phi, rad. */
@@ -4716,6 +4729,11 @@ static const char *const cylindrical_worm_za_za_guard_texts[] = {
     "a division by zero: s must not be 0 (flank.flank)",
     "a division by zero: sin(alpha_hob) must not be 0 (hob_pressure_angle_deg)",
     "a value that the contact needs is missing or not finite (worm_threads, wheel_teeth, pressure_angle_deg)",
+    "worm_threads: missing from the design: give it a value",
+    "wheel_teeth: missing from the design: give it a value",
+    "pressure_angle_deg: missing from the design: give it a value",
+    "normal_module_mm, axial_module_mm: all missing from the design: give one a value",
+    "worm_lead_angle_deg, worm_pitch_radius_mm: all missing from the design: give one a value",
 };
 static const int cylindrical_worm_za_za_pinion_unknowns[] = { 0, 1 };
 static const char *const cylindrical_worm_za_za_pinion_flags[] = { "off_tip", "off_root", NULL };
@@ -5140,6 +5158,17 @@ static inline const char *mwi_flag(const mw_model *m, int bit)
     for (int b = 0; b < 2; bit -= m->bodies[b].margins, b++)
         if (bit < m->bodies[b].margins) return m->bodies[b].flags[bit];
     return NULL;
+}
+static inline int mwi_flags(const mw_model *m, unsigned flags, const char **names)
+{
+    int count = 0;
+    const char *name;
+    for (int bit = 0; (name = mwi_flag(m, bit)) != NULL; bit++) {
+        int known = !(flags >> bit & 1u);
+        for (int k = 0; k < count && !known; k++) known = mwi_same_text(names[k], name);
+        if (!known) names[count++] = name;
+    }
+    return count;
 }
 static inline int mwi_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c)
 {
@@ -5869,12 +5898,16 @@ static inline int mwi_solve(const mw_model *m, const double *p, double phi, doub
 #endif
 
 /* Complete a design: p[cylindrical_worm_za_za_NP] with open numbers NaN, in mm and rad; info may be NULL. Rules and defaults, then what the
- * design leaves to equations of its own. Returns 0, or 1 + k where cylindrical_worm_za_za_model.systems[k] has no solution. */
+ * design leaves to equations of its own. Returns 0, or 1 + k where cylindrical_worm_za_za_model.systems[k] has no solution. Where the design
+ * lacks keys nothing is solved: cylindrical_worm_za_za_setup then names them, and info->guard is what it returns. */
 static inline int cylindrical_worm_za_za_solve_design(double *p, mw_info *info)
 {
     double work[cylindrical_worm_za_za_NP + 1];
     mw_info unused;
-    return mwi_complete(&cylindrical_worm_za_za_model, p, work, info ? info : &unused);
+    mw_info *const record = info ? info : &unused;
+    cylindrical_worm_za_za_derive(p);
+    *record = mwi_ended(MW_BAD_INPUT, cylindrical_worm_za_za_missing(p, 0));
+    return record->guard ? 0 : mwi_complete(&cylindrical_worm_za_za_model, p, work, record);
 }
 
 /* The contact at input angle phi, rad: s[cylindrical_worm_za_za_NS] from cylindrical_worm_za_za_setup, left set up for phi; x[cylindrical_worm_za_za_NX] result; info may be
@@ -5889,18 +5922,25 @@ static inline int cylindrical_worm_za_za_solve(double *s, double phi, double *x,
     return mwi_solve(&cylindrical_worm_za_za_model, p, phi, s, work, x, record);
 }
 
-/* Contact geometry at a solution x of cylindrical_worm_za_za_solve, s as it left it; o[cylindrical_worm_za_za_NO] as of cylindrical_worm_za_za_observe. contact->flags bit
- * k is called cylindrical_worm_za_za_flag(k). Returns MW_CONVERGED or MW_LINE_CONTACT, or why x is no contact. */
+/* Contact geometry at a solution x of cylindrical_worm_za_za_solve, s as it left it; o[cylindrical_worm_za_za_NO] as of cylindrical_worm_za_za_observe. cylindrical_worm_za_za_flags has the
+ * names of contact->flags. Returns MW_CONVERGED or MW_LINE_CONTACT, or why x is no contact. */
 static inline int cylindrical_worm_za_za_geometry(const double *s, const double *x, double *o, mw_contact *contact)
 {
     const int kind = mwi_contact_at(&cylindrical_worm_za_za_model, s, x, o, contact), touch = mwi_touch(&cylindrical_worm_za_za_model, x, o);
     return touch < 0 ? touch : kind;
 }
 
-/* Name of a flag by its bit, NULL where there is none; the margins of a contact are flagged where they are negative. */
+/* Name of a flag by the number of its bit, 0 for the lowest, not by contact->flags, in which several are set at once; NULL where
+ * there is none. The margins of a contact are flagged where they are negative. */
 static inline const char *cylindrical_worm_za_za_flag(int bit)
 {
     return mwi_flag(&cylindrical_worm_za_za_model, bit);
+}
+
+/* Names of all flags that are set in contact->flags, each once: names[cylindrical_worm_za_za_NFLAGS]. Returns how many. */
+static inline int cylindrical_worm_za_za_flags(unsigned flags, const char **names)
+{
+    return mwi_flags(&cylindrical_worm_za_za_model, flags, names);
 }
 
 /* What a status means: the word used in results, and a sentence. */

@@ -121,7 +121,7 @@ typedef struct mw_model {
     const mw_body *bodies;       /* pinion, wheel */
     void (*derive)(double *p);                                  /* fill in defaults and derived values */
     void (*size)(const double *p, double *d);
-    int (*setup)(const double *p, double *s);                   /* 0, or 1 + index of the guard that fails */
+    int (*setup)(const double *p, double *s);                   /* 0, or 1 + index of the guard that fails; beyond: of what is missing */
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
@@ -215,6 +215,7 @@ typedef struct mw_contact {
 #define face_worm_NO 62
 #define face_worm_ND 6
 #define face_worm_NSTART 1
+#define face_worm_NFLAGS 5
 #define face_worm_NANCHOR 30
 #define face_worm_NEAREST 3.814697265625e-06
 #define face_worm_ABI 6
@@ -2346,8 +2347,25 @@ static inline void face_worm_size(const double *p, double *d)
 #pragma GCC pop_options
 #endif
 
-/* Design stage: p[face_worm_NP] complete; s[face_worm_NS], the parameters themselves at its end. Returns 0, or 1 + the index of
- * the guard that does not hold. */
+/* Of parameters that face_worm_derive leaves open: the number of the text in face_worm_guard_texts that names keys which the
+ * design lacks; else `otherwise`. */
+static inline int face_worm_missing(const double *p, int otherwise)
+{
+    if (p[1] != p[1]) return 10;
+    if (p[2] != p[2]) return 11;
+    if (p[3] != p[3]) return 12;
+    if (p[4] != p[4]) return 13;
+    if (p[5] != p[5]) return 14;
+    if (p[6] != p[6]) return 15;
+    if (p[8] != p[8]) return 16;
+    if (p[9] != p[9]) return 17;
+    if (p[10] != p[10]) return 18;
+    if (p[12] != p[12]) return 19;
+    return otherwise;
+}
+
+/* Design stage: p[face_worm_NP] complete; s[face_worm_NS], the parameters themselves at its end. Returns 0, or 1 + the index in
+ * face_worm_guard_texts of what does not hold: of a key that is missing first. */
 /* Equations: derivation/root, derivation/quotient, derivation/relative, derivation/tangent, derivation/step-size. */
 static inline int face_worm_setup(const double *p, double *s)
 {
@@ -2922,7 +2940,7 @@ static inline int face_worm_setup(const double *p, double *s)
     s[216] = p[50];
     s[217] = p[51];
     s[218] = p[52];
-    return failed;
+    return failed ? face_worm_missing(p, failed) : 0;
 }
 
 /* Instant stage: input angle phi, rad. */
@@ -8071,6 +8089,16 @@ static const char *const face_worm_guard_texts[] = {
     "a division by zero: N_2 must not be 0 (gear_teeth)",
     "a division by zero: m_ax must not be 0 (axial_module_mm)",
     "a value that the contact needs is missing or not finite (worm_threads, gear_teeth, axial_module_mm, offset_mm, worm_axial_position_mm, worm_pitch_diameter_mm, gear_inner_radius_mm, gear_outer_radius_mm, profile_angle_deg, blade_parabola_per_mm)",
+    "worm_threads: missing from the design: give it a value",
+    "gear_teeth: missing from the design: give it a value",
+    "axial_module_mm: missing from the design: give it a value",
+    "offset_mm: missing from the design: give it a value",
+    "worm_axial_position_mm: missing from the design: give it a value",
+    "worm_pitch_diameter_mm: missing from the design: give it a value",
+    "gear_inner_radius_mm: missing from the design: give it a value",
+    "gear_outer_radius_mm: missing from the design: give it a value",
+    "profile_angle_deg: missing from the design: give it a value",
+    "blade_parabola_per_mm: missing from the design: give it a value",
 };
 static const int face_worm_pinion_unknowns[] = { 0, 1, 2 };
 static const char *const face_worm_pinion_flags[] = { NULL };
@@ -8497,6 +8525,17 @@ static inline const char *mwi_flag(const mw_model *m, int bit)
     for (int b = 0; b < 2; bit -= m->bodies[b].margins, b++)
         if (bit < m->bodies[b].margins) return m->bodies[b].flags[bit];
     return NULL;
+}
+static inline int mwi_flags(const mw_model *m, unsigned flags, const char **names)
+{
+    int count = 0;
+    const char *name;
+    for (int bit = 0; (name = mwi_flag(m, bit)) != NULL; bit++) {
+        int known = !(flags >> bit & 1u);
+        for (int k = 0; k < count && !known; k++) known = mwi_same_text(names[k], name);
+        if (!known) names[count++] = name;
+    }
+    return count;
 }
 static inline int mwi_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c)
 {
@@ -9226,12 +9265,16 @@ static inline int mwi_solve(const mw_model *m, const double *p, double phi, doub
 #endif
 
 /* Complete a design: p[face_worm_NP] with open numbers NaN, in mm and rad; info may be NULL. Rules and defaults, then what the
- * design leaves to equations of its own. Returns 0, or 1 + k where face_worm_model.systems[k] has no solution. */
+ * design leaves to equations of its own. Returns 0, or 1 + k where face_worm_model.systems[k] has no solution. Where the design
+ * lacks keys nothing is solved: face_worm_setup then names them, and info->guard is what it returns. */
 static inline int face_worm_solve_design(double *p, mw_info *info)
 {
     double work[face_worm_NP + 1];
     mw_info unused;
-    return mwi_complete(&face_worm_model, p, work, info ? info : &unused);
+    mw_info *const record = info ? info : &unused;
+    face_worm_derive(p);
+    *record = mwi_ended(MW_BAD_INPUT, face_worm_missing(p, 0));
+    return record->guard ? 0 : mwi_complete(&face_worm_model, p, work, record);
 }
 
 /* The contact at input angle phi, rad: s[face_worm_NS] from face_worm_setup, left set up for phi; x[face_worm_NX] result; info may be
@@ -9246,18 +9289,25 @@ static inline int face_worm_solve(double *s, double phi, double *x, mw_info *inf
     return mwi_solve(&face_worm_model, p, phi, s, work, x, record);
 }
 
-/* Contact geometry at a solution x of face_worm_solve, s as it left it; o[face_worm_NO] as of face_worm_observe. contact->flags bit
- * k is called face_worm_flag(k). Returns MW_CONVERGED or MW_LINE_CONTACT, or why x is no contact. */
+/* Contact geometry at a solution x of face_worm_solve, s as it left it; o[face_worm_NO] as of face_worm_observe. face_worm_flags has the
+ * names of contact->flags. Returns MW_CONVERGED or MW_LINE_CONTACT, or why x is no contact. */
 static inline int face_worm_geometry(const double *s, const double *x, double *o, mw_contact *contact)
 {
     const int kind = mwi_contact_at(&face_worm_model, s, x, o, contact), touch = mwi_touch(&face_worm_model, x, o);
     return touch < 0 ? touch : kind;
 }
 
-/* Name of a flag by its bit, NULL where there is none; the margins of a contact are flagged where they are negative. */
+/* Name of a flag by the number of its bit, 0 for the lowest, not by contact->flags, in which several are set at once; NULL where
+ * there is none. The margins of a contact are flagged where they are negative. */
 static inline const char *face_worm_flag(int bit)
 {
     return mwi_flag(&face_worm_model, bit);
+}
+
+/* Names of all flags that are set in contact->flags, each once: names[face_worm_NFLAGS]. Returns how many. */
+static inline int face_worm_flags(unsigned flags, const char **names)
+{
+    return mwi_flags(&face_worm_model, flags, names);
 }
 
 /* What a status means: the word used in results, and a sentence. */

@@ -116,7 +116,7 @@ typedef struct mw_model {
     const mw_body *bodies;       /* pinion, wheel */
     void (*derive)(double *p);                                  /* fill in defaults and derived values */
     void (*size)(const double *p, double *d);
-    int (*setup)(const double *p, double *s);                   /* 0, or 1 + index of the guard that fails */
+    int (*setup)(const double *p, double *s);                   /* 0, or 1 + index of the guard that fails; beyond: of what is missing */
     void (*set_phi)(double *s, double phi);
     void (*eval)(const double *s, const double *x, double *R, double *J);
     double (*step)(const double *s, double *x);                 /* one Newton step; sum of |change|/scale */
@@ -210,6 +210,7 @@ typedef struct mw_contact {
 #define spherical_convex_concave_NO 63
 #define spherical_convex_concave_ND 16
 #define spherical_convex_concave_NSTART 0
+#define spherical_convex_concave_NFLAGS 10
 #define spherical_convex_concave_NANCHOR 18
 #define spherical_convex_concave_NEAREST 3.814697265625e-06
 #define spherical_convex_concave_ABI 6
@@ -610,8 +611,22 @@ static inline void spherical_convex_concave_size(const double *p, double *d)
 #pragma GCC pop_options
 #endif
 
-/* Design stage: p[spherical_convex_concave_NP] complete; s[spherical_convex_concave_NS], the parameters themselves at its end. Returns 0, or 1 + the index of
- * the guard that does not hold. */
+/* Of parameters that spherical_convex_concave_derive leaves open: the number of the text in spherical_convex_concave_guard_texts that names keys which the
+ * design lacks; else `otherwise`. */
+static inline int spherical_convex_concave_missing(const double *p, int otherwise)
+{
+    if (p[1] != p[1]) return 22;
+    if (p[2] != p[2]) return 23;
+    if (p[3] != p[3]) return 24;
+    if (p[6] != p[6]) return 25;
+    if (p[7] != p[7]) return 26;
+    if (p[13] != p[13]) return 27;
+    if (p[14] != p[14]) return 28;
+    return otherwise;
+}
+
+/* Design stage: p[spherical_convex_concave_NP] complete; s[spherical_convex_concave_NS], the parameters themselves at its end. Returns 0, or 1 + the index in
+ * spherical_convex_concave_guard_texts of what does not hold: of a key that is missing first. */
 /* Equations: derivation/tangent, derivation/quotient, derivation/root, derivation/explicit, derivation/relative,
  *   derivation/step-size. */
 static inline int spherical_convex_concave_setup(const double *p, double *s)
@@ -1033,7 +1048,7 @@ static inline int spherical_convex_concave_setup(const double *p, double *s)
     s[124] = p[22];
     s[125] = p[23];
     s[126] = p[24];
-    return failed;
+    return failed ? spherical_convex_concave_missing(p, failed) : 0;
 }
 
 /* Instant stage: input angle phi, rad. */
@@ -4711,6 +4726,13 @@ static const char *const spherical_convex_concave_guard_texts[] = {
     "a division by zero: sqrt(m·R_pinion) must not be 0 (module_mm, pinion_sphere_radius_mm)",
     "a division by zero: sqrt(m·R_wheel) must not be 0 (module_mm, wheel_sphere_radius_mm)",
     "a value that the contact needs is missing or not finite (module_mm, pressure_angle_deg, face_width_mm, pinion_teeth, pinion_sphere_radius_mm, wheel_teeth, wheel_sphere_radius_mm)",
+    "module_mm: missing from the design: give it a value",
+    "pressure_angle_deg: missing from the design: give it a value",
+    "face_width_mm: missing from the design: give it a value",
+    "pinion_teeth: missing from the design: give it a value",
+    "pinion_sphere_radius_mm: missing from the design: give it a value",
+    "wheel_teeth: missing from the design: give it a value",
+    "wheel_sphere_radius_mm: missing from the design: give it a value",
 };
 static const int spherical_convex_concave_pinion_unknowns[] = { 0, 1 };
 static const char *const spherical_convex_concave_pinion_flags[] = { "off_tip", "off_face", "off_tool", "off_tool", NULL };
@@ -5129,6 +5151,17 @@ static inline const char *mwi_flag(const mw_model *m, int bit)
     for (int b = 0; b < 2; bit -= m->bodies[b].margins, b++)
         if (bit < m->bodies[b].margins) return m->bodies[b].flags[bit];
     return NULL;
+}
+static inline int mwi_flags(const mw_model *m, unsigned flags, const char **names)
+{
+    int count = 0;
+    const char *name;
+    for (int bit = 0; (name = mwi_flag(m, bit)) != NULL; bit++) {
+        int known = !(flags >> bit & 1u);
+        for (int k = 0; k < count && !known; k++) known = mwi_same_text(names[k], name);
+        if (!known) names[count++] = name;
+    }
+    return count;
 }
 static inline int mwi_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c)
 {
@@ -5858,12 +5891,16 @@ static inline int mwi_solve(const mw_model *m, const double *p, double phi, doub
 #endif
 
 /* Complete a design: p[spherical_convex_concave_NP] with open numbers NaN, in mm and rad; info may be NULL. Rules and defaults, then what the
- * design leaves to equations of its own. Returns 0, or 1 + k where spherical_convex_concave_model.systems[k] has no solution. */
+ * design leaves to equations of its own. Returns 0, or 1 + k where spherical_convex_concave_model.systems[k] has no solution. Where the design
+ * lacks keys nothing is solved: spherical_convex_concave_setup then names them, and info->guard is what it returns. */
 static inline int spherical_convex_concave_solve_design(double *p, mw_info *info)
 {
     double work[spherical_convex_concave_NP + 1];
     mw_info unused;
-    return mwi_complete(&spherical_convex_concave_model, p, work, info ? info : &unused);
+    mw_info *const record = info ? info : &unused;
+    spherical_convex_concave_derive(p);
+    *record = mwi_ended(MW_BAD_INPUT, spherical_convex_concave_missing(p, 0));
+    return record->guard ? 0 : mwi_complete(&spherical_convex_concave_model, p, work, record);
 }
 
 /* The contact at input angle phi, rad: s[spherical_convex_concave_NS] from spherical_convex_concave_setup, left set up for phi; x[spherical_convex_concave_NX] result; info may be
@@ -5878,18 +5915,25 @@ static inline int spherical_convex_concave_solve(double *s, double phi, double *
     return mwi_solve(&spherical_convex_concave_model, p, phi, s, work, x, record);
 }
 
-/* Contact geometry at a solution x of spherical_convex_concave_solve, s as it left it; o[spherical_convex_concave_NO] as of spherical_convex_concave_observe. contact->flags bit
- * k is called spherical_convex_concave_flag(k). Returns MW_CONVERGED or MW_LINE_CONTACT, or why x is no contact. */
+/* Contact geometry at a solution x of spherical_convex_concave_solve, s as it left it; o[spherical_convex_concave_NO] as of spherical_convex_concave_observe. spherical_convex_concave_flags has the
+ * names of contact->flags. Returns MW_CONVERGED or MW_LINE_CONTACT, or why x is no contact. */
 static inline int spherical_convex_concave_geometry(const double *s, const double *x, double *o, mw_contact *contact)
 {
     const int kind = mwi_contact_at(&spherical_convex_concave_model, s, x, o, contact), touch = mwi_touch(&spherical_convex_concave_model, x, o);
     return touch < 0 ? touch : kind;
 }
 
-/* Name of a flag by its bit, NULL where there is none; the margins of a contact are flagged where they are negative. */
+/* Name of a flag by the number of its bit, 0 for the lowest, not by contact->flags, in which several are set at once; NULL where
+ * there is none. The margins of a contact are flagged where they are negative. */
 static inline const char *spherical_convex_concave_flag(int bit)
 {
     return mwi_flag(&spherical_convex_concave_model, bit);
+}
+
+/* Names of all flags that are set in contact->flags, each once: names[spherical_convex_concave_NFLAGS]. Returns how many. */
+static inline int spherical_convex_concave_flags(unsigned flags, const char **names)
+{
+    return mwi_flags(&spherical_convex_concave_model, flags, names);
 }
 
 /* What a status means: the word used in results, and a sentence. */

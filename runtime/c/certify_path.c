@@ -1,6 +1,7 @@
 /* Certified paths: Krawczyk's test for every angle of a piece at once. See mw_certify.h.  SPDX-License-Identifier: MIT-0 */
 #include <string.h>
 #define MWC_PATHS
+#include "certify/kinks.h"
 #include "certify/krawczyk.h"
 #include "certify/tables.h"
 #include "kernels.h"
@@ -8,14 +9,17 @@
 /* What a first box has beyond twice the shift, mm and rad: room for the neighbouring piece at a joint. */
 static const double ROOM = 1e-8;
 
-enum { NODES = MWC_ORDER + 1, SHAPING = 6, NARROWING = 4 };
+enum { NODES = MWC_ORDER + 1, SHAPING = 6, NARROWING = 4, MOST_SIDES = 3 };
 
-/* What a test on a piece works on: numbers that functions read, registers, and polynomials of the inverse Jacobian. */
+/* What a test on a piece works on: numbers that functions read, registers, polynomials of the inverse Jacobian, and which
+ * sides are taken of kinks of the flanks. */
 typedef struct work {
     int n;
     const mw_certified *tables;
     mw_polynomial arguments[MWC_ARGUMENTS], registers[MWC_REGISTERS];
     mw_polynomial C[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS];
+    mwc_sides sides;
+    int kinks;
 } work;
 
 /* Cosines of the odd multiples of pi/18, ascending. */
@@ -44,9 +48,14 @@ static mw_polynomial through(const double *t, const double *values)
     return p;
 }
 
+/* Where nothing may jump. */
+static const mwc_sides NO_SIDES = { 0, 0, 0, 0U };
+
 static void run(work *w, const mw_code *code, int count)
 {
-    mwc_run_polynomial(code, count, w->arguments, w->registers);
+    w->sides.met = 0;
+    mwc_run_polynomial(code, count, w->arguments, w->registers, &w->sides);
+    if (w->sides.met > w->kinks) w->kinks = w->sides.met;
 }
 
 /* The state along the piece: numbers of the design stay, those of the angle become polynomials. */
@@ -71,23 +80,35 @@ static void set_unknowns(work *w, const mw_polynomial *x, const double *d)
     }
 }
 
-/* Polynomials through the inverses at the nodes; 0 where one is singular in double. */
+/* The larger, or whichever is none. */
+static double larger(double a, double b)
+{
+    return a >= b || a != a ? a : b;
+}
+
+/* Polynomials through the inverses at the nodes, of the mean over both sides of kinks; 0 where one is singular in double. */
 static int fit_inverse(work *w, const double *t, const mw_polynomial *x)
 {
     const mw_code *code = &w->tables->equations;
     const int n = w->n, size = n * n;
-    double found[NODES][MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], values[NODES];
+    double found[NODES][MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], values[NODES], sides = 0.0;
     mw_polynomial J[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS];
     set_unknowns(w, x, NULL);
-    run(w, code, code->instructions);
-    for (int i = 0; i < size; i++) J[i] = w->registers[code->output[n + i]];
+    do {
+        run(w, code, code->instructions);
+        for (int i = 0; i < size; i++) {
+            const mw_polynomial side = w->registers[code->output[n + i]];
+            J[i] = sides > 0.0 ? mwc_poly_add(J[i], side) : side;
+        }
+        sides += 1.0;
+    } while (mwc_other_sides(&w->sides));
     for (int k = 0; k < NODES; k++) {
         mw_ball at[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS];
         for (int i = 0; i < size; i++) at[i] = mwc_poly_at(&J[i], mwc_make(t[k], 0.0));
         if (!mwc_inverse(n, at, found[k])) return 0;
     }
     for (int i = 0; i < size; i++) {
-        for (int k = 0; k < NODES; k++) values[k] = found[k][i];
+        for (int k = 0; k < NODES; k++) values[k] = sides * found[k][i];
         w->C[i] = through(t, values);
     }
     return 1;
@@ -97,13 +118,16 @@ static int fit_inverse(work *w, const double *t, const mw_polynomial *x)
 static void shifts(work *w, mw_ball *z)
 {
     const mw_code *code = &w->tables->equations;
-    run(w, code, code->first);
-    for (int i = 0; i < w->n; i++) {
-        mw_polynomial sum = mwc_poly_of_ball(mwc_make(0.0, 0.0));
-        for (int k = 0; k < w->n; k++)
-            sum = mwc_poly_add(sum, mwc_poly_mul(w->C[i * w->n + k], w->registers[code->output[k]]));
-        z[i] = mwc_make(0.0, mwc_poly_most(&sum));
-    }
+    for (int i = 0; i < w->n; i++) z[i] = mwc_make(0.0, 0.0);
+    do {
+        run(w, code, code->first);
+        for (int i = 0; i < w->n; i++) {
+            mw_polynomial sum = mwc_poly_of_ball(mwc_make(0.0, 0.0));
+            for (int k = 0; k < w->n; k++)
+                sum = mwc_poly_add(sum, mwc_poly_mul(w->C[i * w->n + k], w->registers[code->output[k]]));
+            z[i].radius = larger(z[i].radius, mwc_poly_most(&sum));
+        }
+    } while (mwc_other_sides(&w->sides));
 }
 
 /* |I - C J| over the piece and the box. */
@@ -111,25 +135,35 @@ static void defects(work *w, double *M)
 {
     const mw_code *code = &w->tables->equations;
     const int n = w->n;
-    run(w, code, code->instructions);
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++) {
-            mw_polynomial sum = mwc_poly_of_ball(mwc_make(i == j ? 1.0 : 0.0, 0.0));
-            for (int k = 0; k < n; k++)
-                sum = mwc_poly_sub(sum, mwc_poly_mul(w->C[i * n + k], w->registers[code->output[n + k * n + j]]));
-            M[i * n + j] = mwc_poly_most(&sum);
-        }
+    for (int i = 0; i < n * n; i++) M[i] = 0.0;
+    do {
+        run(w, code, code->instructions);
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < n; j++) {
+                mw_polynomial sum = mwc_poly_of_ball(mwc_make(i == j ? 1.0 : 0.0, 0.0));
+                for (int k = 0; k < n; k++)
+                    sum = mwc_poly_sub(sum, mwc_poly_mul(w->C[i * n + k], w->registers[code->output[n + k * n + j]]));
+                M[i * n + j] = larger(M[i * n + j], mwc_poly_most(&sum));
+            }
+    } while (mwc_other_sides(&w->sides));
 }
 
 static void observe_margins(const mw_model *m, work *w, const double *within, mw_piece *piece)
 {
     const mw_code *code = &w->tables->observed;
     const int most = (int)(sizeof piece->margin / sizeof piece->margin[0]);
+    int sides = 0;
     set_unknowns(w, piece->x, within);
-    run(w, code, code->instructions);
     piece->margins = 2 + m->bodies[0].margins + m->bodies[1].margins;
     if (piece->margins > most) piece->margins = most;
-    for (int i = 0; i < piece->margins; i++) piece->margin[i] = w->registers[code->output[15 + i]];
+    do {
+        run(w, code, code->instructions);
+        for (int i = 0; i < piece->margins; i++) {
+            const mw_polynomial side = w->registers[code->output[15 + i]];
+            piece->margin[i] = sides ? mwc_poly_hull(piece->margin[i], side) : side;
+        }
+        sides++;
+    } while (mwc_other_sides(&w->sides));
 }
 
 static int reason_of(const mw_model *m, work *w, const mw_wide *s, const double *x, mw_piece *piece)
@@ -143,7 +177,10 @@ static int reason_of(const mw_model *m, work *w, const mw_wide *s, const double 
         for (int k = 0; k < NODES; k++) values[k] = x[k * n + i];
         piece->x[i] = through(t, values);
     }
+    w->sides = NO_SIDES;
+    w->kinks = 0;
     set_state(w, s, piece);
+    if (mwc_continuous(&w->tables->equations, n)) w->sides.most = MOST_SIDES;
     if (!fit_inverse(w, t, piece->x)) return MW_REASON_FOLD;
     set_unknowns(w, piece->x, NULL);
     shifts(w, z);
@@ -193,6 +230,7 @@ int mw_certify_piece(const mw_model *m, const mw_wide *s, double from, double to
     piece->reason = MW_REASON_DESIGN;
     if (!possible(w.tables, m->nx)) return piece->outcome = MW_UNKNOWN;
     piece->reason = reason_of(m, &w, s, x, piece);
+    piece->kinks = w.kinks;
     return piece->outcome = piece->reason == MW_REASON_NONE ? MW_UNIQUE : MW_UNKNOWN;
 }
 
@@ -211,8 +249,9 @@ mw_ball mw_piece_at(const mw_piece *piece, const mw_polynomial *of, double angle
 static int held(const mw_model *m, const mw_piece *one, const mw_piece *other, double angle)
 {
     for (int i = 0; i < m->nx; i++) {
-        /* this holds the solution of `one` less the polynomial of `other`, and the latter's radius besides */
-        const mw_ball apart = mwc_sub(mw_piece_at(one, &one->x[i], angle), mw_piece_at(other, &other->x[i], angle));
+        mw_polynomial middle = other->x[i];
+        middle.radius = 0.0;
+        const mw_ball apart = mwc_sub(mw_piece_at(one, &one->x[i], angle), mw_piece_at(other, &middle, angle));
         if (!(mwc_abs(apart.mid) + mwc_reach(apart) < other->box[i])) return 0;
     }
     return 1;

@@ -22,11 +22,11 @@ static int set_up(search *h, const mw_model *m, const double *s, const mw_flank_
     h->nk = p->parameters;
     h->nw = w->parameters;
     h->given = 1;
-    h->bound[1] = mesh->bound;
     if (h->nk > MAX_K || h->nw > MAX_K || h->nk != 2 + p->conditions || h->nw != 2 + w->conditions) return 0;
-    if (w->conditions ? mesh->bound < 0 || mesh->bound >= h->nw : mesh->bound != -1) return 0;
+    const int first = mesh->span[0], second = mesh->span[1];
+    if (first < 0 || second < 0 || first >= h->nw || second >= h->nw || first == second) return 0;
     if (p->outputs > MAX_OUTPUTS || w->outputs > MAX_OUTPUTS || limit_count(h) > MAX_LIMITS) return 0;
-    others(h->nw, h->bound[1], h->free_[1]);
+    span(h, 1, first, second);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++)
             h->A[3 * i + j] = pinion[i] * wheel[j] + pinion[4 + i] * wheel[4 + j] + pinion[8 + i] * wheel[8 + j];

@@ -212,14 +212,15 @@ size_t mw_edge_follow(const mw_model *m, int edge, double *s, double phi0, const
 int mw_bounds(const mw_model *m, int surface, int order, const double *s, const double *q, size_t n, double *o);
 
 /* The bounded flank of the wheel as triangles, right hand: q[vertices*parameters] inside all limits, those of its border
- * on them, corner[triangles*3]; open[vertices]: whether nothing in the design ends the flank there. bound: the
- * parameter that the flank's condition gives, -1 without one. Natural sizes of the parameters of either flank. */
+ * on them, corner[triangles*3]; open[vertices]: whether nothing in the design ends the flank there. span: the two
+ * parameters that span the flank; its conditions, two at most, give the others. Natural sizes of the parameters of either
+ * flank. */
 typedef struct mw_flank_mesh {
     size_t vertices, triangles;
     const double *q;
     const int *corner;
     const unsigned char *open;
-    int bound;
+    int span[2];
     const double *wheel_sizes, *pinion_sizes;
 } mw_flank_mesh;
 
@@ -230,7 +231,7 @@ typedef struct mw_flank_mesh {
  * exclude would overlap by this at most, mm. */
 typedef struct mw_first {
     int status, limit[2], member[2];
-    double wheel_turn, lever, q_wheel[3], q_pinion[3], point[3], normal[3], unresolved;
+    double wheel_turn, lever, q_wheel[4], q_pinion[4], point[3], normal[3], unresolved;
     size_t met, open;
 } mw_first;
 

@@ -98,9 +98,10 @@ int mw_certify_branch(const mw_model *m, const mw_wide *s, int crossing, double 
 
 /* A piece of path: at every input angle centre + half t, -1 <= t <= 1, the equations have a solution within x[i].radius of the
  * polynomials x[nx], and no other within box[nx] of them: one branch, without turning point or crossing. margin: regular and
- * margins of the pinion, then of the wheel, along it; margins: how many. */
+ * margins of the pinion, then of the wheel, along it; margins: how many; kinks: at how many places where the formula of a
+ * flank changes, such as the start of a relief, the contact may be within the piece. */
 typedef struct mw_piece {
-    int outcome, reason, margins;
+    int outcome, reason, margins, kinks;
     double centre, half;
     mw_polynomial x[8];
     double box[8];

@@ -77,6 +77,24 @@ def test_a_changed_function_is_refused(function, pattern, other, words):
         only(Drive(json.loads(description), head + signature + changed), words)
 
 
+@pytest.mark.parametrize(
+    ("pattern", "other"),
+    [
+        (r"return 24;", "return 25;"),
+        (r"    if \(p\[4\].*\n", ""),
+        (r"return otherwise", "return 0"),
+        (r"p\[7\] !=", "p[8] !="),
+    ],
+)
+def test_a_key_that_is_missing_under_another_name_is_refused(pattern, other):
+    description, header = (path.read_text(encoding="utf-8") for path in paths(ZN))
+    head, signature, body = header.partition(f"{ZN}_missing(")
+    changed, count = re.subn(pattern, other, body, count=1)
+    assert count == 1
+    with pytest.raises(Rejected, match="missing"):
+        only(Drive(json.loads(description), head + signature + changed), "keys that are missing")
+
+
 def test_a_normal_that_points_inward_is_refused():
     """All three components turned round: the length, and the right angle to every tangent, stay."""
     description, header = (path.read_text(encoding="utf-8") for path in paths(ZN))

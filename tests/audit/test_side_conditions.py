@@ -155,7 +155,7 @@ class Case:
         return ffi.from_buffer("double[]", array)
 
     def setup(self, **change):
-        """The guard that fails, as a message; "" if none does."""
+        """The guard that fails, or what is missing, as a message; "" if nothing is."""
         p = self.p.copy()
         names = [text(self.c.parameters[k].name) for k in range(self.c.np)]
         for name, value in change.items():
@@ -163,7 +163,7 @@ class Case:
         failed = self.c.setup(self.buffer(p), self.buffer(self.s))
         self.c.set_phi(self.buffer(self.s), self.phi)
         self.last = p
-        return self.told["guards"][failed - 1]["message"] if failed else ""
+        return [*self.told["guards"], *self.told["missing"]][failed - 1]["message"] if failed else ""
 
     def status(self):
         """Of mw_solve and of mw_trace for the parameters of the last setup."""

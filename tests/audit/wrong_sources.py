@@ -52,7 +52,7 @@ DRIVES = {
     "tools/rack_section.py": (CONCAVE, *CYLINDRICAL), "tools/cutter_blade.py": BEVELS, "tools/head_cutter.py": BEVELS,
     "language/chain.py": EVERY, "language/contact.py": EVERY, "language/differentiate.py": EVERY,
     "language/envelope.py": EVERY, "language/surface.py": EVERY, "language/vectors.py": EVERY,
-    "language/rack_and_pinion.py": (ZN, *CYLINDRICAL), "passes/singular.py": EVERY, "language/functions.py": EVERY,
+    "drives/rack_and_pinion.py": (ZN,), "passes/singular.py": EVERY, "language/functions.py": EVERY,
     "passes/completion.py": EVERY, "passes/directional.py": EVERY, "passes/edges.py": EVERY, "passes/fuse.py": EVERY,
     "passes/geometry.py": EVERY, "passes/linearise.py": EVERY, "passes/quotients.py": EVERY,
     "program/tape.py": EVERY, "program/lowering.py": EVERY, "program/formula.py": EVERY,

@@ -12,8 +12,8 @@ from meshwright.cli import main
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle import certified_first_path
 from meshwright.cycle.certified_cycle import leading
+from tests.cycle.test_first_contact import EDGE_FIRST
 from tests.independent.first_touch import FirstTouch
-from tests.test_first_contact import EDGE_FIRST
 
 #: Angles in degrees at which a packaged drive touches first where it is tangent.
 FIRST = {"recess-action-full": 100.0, "plain-zn": 0.0, "spherical-table-4-4-concave": 0.0}

@@ -83,8 +83,8 @@ def test_the_mesh_cycle_of_every_packaged_drive_is_covered_or_the_place_is_named
     assert named <= {"wide", "fold", "no_contact", "joint", "design", "tube"} and (lines or named)
 
 
-#: One of a kind: contact that crosses the middle of a face, where its margin has a corner, among them.
-ENDED = ("recess-action-standard", "plain-za", "spherical-table-2-3", "bevel-formate")
+#: One of a kind: contact that crosses the middle of a face, where its margin has a corner, and reliefs among them.
+ENDED = ("recess-action-standard", "plain-za", "spherical-table-2-3", "bevel-formate", "helical-crowned")
 
 
 @pytest.mark.parametrize("name", quick(packaged_names(), *ENDED))

@@ -37,8 +37,10 @@ def test_a_folder_without_a_manifest_loses_nothing(tmp_path):
 
 
 def test_an_unknown_drive_is_named_with_those_known(tmp_path, capsys):
+    assert command.main(["gearbox", "--output", str(tmp_path)]) == 2
+    assert "no drive 'gearbox'; known: cylindrical_worm_za_za" in capsys.readouterr().err
     assert command.main(["worm", "--output", str(tmp_path)]) == 2
-    assert "no drive 'worm'; known: cylindrical_worm_za_za" in capsys.readouterr().err
+    assert "no drive 'worm'; did you mean face_worm?" in capsys.readouterr().err
     assert not [*tmp_path.iterdir()]
 
 

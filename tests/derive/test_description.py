@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import fields
 from functools import reduce
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import pytest
 
 from derive import drives
 from derive.language.description import describe, prefix, text
+from derive.language.drive import Drive
 from derive.passes.sample import observation
 from derive.passes.schedule import schedule
 
@@ -216,3 +218,16 @@ def test_every_generated_description_is_plain_data_with_sources():
     parities = {q["name"]: q["parity"] for q in [data["contact"]["instant"], *data["contact"]["unknowns"]]}
     assert parities["phi_pinion"] == parities["transmission_error"] == -1
     assert parities["l_pinion"] == 1
+
+
+def test_all_that_a_drive_has_is_in_its_description():
+    """By the same name, or as a part of another entry; the two that a family shares are in the table of families."""
+    parts = {
+        "parameters": "keys", "systems": "design_systems", "pinion": "bodies", "wheel": "bodies", "guess": "start",
+    }  # fmt: skip
+    of_contact = ("instant", "error", "ratio", "wheel_angle", "unknowns", "residual", "reference_angle")
+    parts |= dict.fromkeys(of_contact, "contact")
+    described = describe(drives.catalogue(["face_worm"])["face_worm"]())
+    shared = json.loads((ROOT / "generated" / "families.json").read_text(encoding="utf-8"))["families"]["face-worm"]
+    for field in fields(Drive):
+        assert parts.get(field.name, field.name) in {**described, **shared}, field.name

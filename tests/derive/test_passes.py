@@ -3,6 +3,7 @@
 from dataclasses import FrozenInstanceError, replace
 
 import pytest
+import sympy as sp
 
 from derive import command, drives
 from derive.emit import text
@@ -12,8 +13,12 @@ from derive.passes.order import order
 from derive.passes.quotients import reciprocals
 from derive.passes.schedule import schedule
 from derive.program.routine import routine
+from tests.derive import small
+from tests.derive.small import lowered
 
 DRIVE = "cylindrical_worm_zn_zn"
+SYMBOLS = small.x, small.y
+ROOT = sp.sqrt(small.y + 10)
 
 
 @pytest.fixture(scope="module")
@@ -79,6 +84,24 @@ def test_a_wrong_entry_of_the_jacobian_and_a_wrong_step_are_caught(plan):
         check.derives("linearise", plan.tape, plan.residual, unknowns, jacobian)
     with pytest.raises(check.PassError, match="equation 0"):
         check.solves("pivot order", plan.tape, plan.jacobian, plan.change[::-1], plan.residual)
+
+
+@pytest.mark.parametrize(
+    ("value", "by_x", "by_y"),
+    [
+        (lambda t, x, y, wave, root: t.mul(y, t.add(*(t.mul(f, f) for f in wave))), lambda x, y: 0 * x, lambda x, y: 1),
+        (lambda t, x, y, wave, root: t.mul(x, t.mul(root, root)), lambda x, y: y + 10, lambda x, y: x),
+    ],
+    ids=["by the circle", "by a root"],
+)
+def test_what_is_a_derivative_by_an_identity_alone_passes_and_what_is_none_does_not(value, by_x, by_y):
+    """y (sin²x + cos²x) and x √(y + 10)²."""
+    tape, lower, (x, y, sine, cosine, root) = lowered(*SYMBOLS, sp.sin(SYMBOLS[0]), sp.cos(SYMBOLS[0]), ROOT)
+    values, slopes = [value(tape, x, y, (sine, cosine), root)], [lower(sp.sympify(s(*SYMBOLS))) for s in (by_x, by_y)]
+    check.derives("right", tape, values, [x, y], [slopes])
+    for wrong in ([slopes[0], tape.add(slopes[1], slopes[1])], [tape.add(slopes[0], y), slopes[1]]):
+        with pytest.raises(check.PassError, match="wrong: entry 0, . is not the derivative"):
+            check.derives("wrong", tape, values, [x, y], [wrong])
 
 
 def test_a_routine_is_immutable(step):

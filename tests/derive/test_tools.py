@@ -68,3 +68,10 @@ def test_the_whole_drive_follows(crowned):
     with mpmath.workdps(40):
         numbers = plan.tape.evaluate(plan.residual, plan.sample, mpmath)
     assert max(map(abs, numbers)) < 1e-20
+
+
+def test_a_tool_is_called_by_its_docstring_its_module_or_its_name(crowned):
+    """Whichever says what it is first."""
+    bare = tool()(lambda body, definitions: None)
+    assert bare.title == __doc__.splitlines()[0]
+    assert all(use.tool.title for use in crowned.tools)

@@ -1,5 +1,6 @@
 """A description that contradicts itself is refused before anything is derived from it, and the message says where."""
 
+from contextlib import nullcontext
 from dataclasses import replace
 
 import mpmath
@@ -10,20 +11,23 @@ from derive import drives
 from derive.language import vectors as v
 from derive.language.chain import Motion
 from derive.language.contact import contact
-from derive.language.drive import Loading, Margin, Role
-from derive.language.functions import solid
+from derive.language.drive import DesignSystem, Loading, Margin, Role
+from derive.language.functions import Function, Result, solid
 from derive.language.outline import Suggestion, m
-from derive.language.symbols import Guard, Parameter, Quantity, Rule, Table, parameter
+from derive.language.symbols import Guard, Parameter, Quantity, Rule, Table, Unknown, parameter
 from derive.language.validate import (
     DescriptionError,
     validate,
+    validate_limits,
     validate_normals,
     validate_outlines,
+    validate_place,
     validate_ratio,
     validate_regions,
 )
+from derive.passes.equations import derive
 from derive.passes.joints import joints
-from derive.passes.sample import observation
+from derive.passes.sample import observation, sample_contact
 from derive.passes.schedule import schedule
 
 POINT, SMALL = "spherical_convex_concave", "spherical_convex_spur"
@@ -43,7 +47,13 @@ def _with_key(drive, *keys, **changes):
 
 
 def _with_margin(drive, margin):
-    return replace(drive, pinion=replace(drive.pinion, margins=(*drive.pinion.margins, margin)))
+    """The drive with this limit of its pinion, in place of that of the same event."""
+    others = (m for m in drive.pinion.margins if m.event != margin.event)
+    return replace(drive, pinion=replace(drive.pinion, margins=(*others, margin)))
+
+
+def _with_scale(drive, scale):
+    return replace(drive, unknowns=(Unknown(drive.unknowns[0].symbol, scale), *drive.unknowns[1:]))
 
 
 @pytest.mark.parametrize("name", [*drives.catalogue(["spherical", "face_worm", "cylindrical_gears"]),
@@ -56,12 +66,22 @@ def _with_solid(drive, member, **sizes):
     return replace(drive, functions=(solid(member, sizes),))
 
 
+def _with_function(drive, name, value=sp.S.One):
+    return replace(drive, functions=(Function(name, "a function", (), (Result("one", (value,)),)),))
+
+
+def _with_system(drive, *equations):
+    one = DesignSystem("one", (Unknown(X),), equations, {X: sp.Integer(1)}, {MODULE: X}, "none", ("module_mm",))
+    return replace(drive, systems=(one,))
+
+
 def _without_regions(drive):
     pinion, wheel = (replace(body, margins=()) for body in drive.bodies)
     return replace(drive, pinion=pinion, wheel=wheel, regions=())
 
 
 X = Quantity("x_at_pinion", "mm")
+MODULE = Quantity("m", "mm")
 GUARD = Guard(sp.Symbol("m"), "never", ())
 CASES = {
     "symbol is a body coordinate": (
@@ -98,6 +118,12 @@ CASES = {
     "unknown flag": (lambda d: _with_margin(d, Margin("of_tip", "tip", X)), "unknown flag 'of_tip'"),
     "unknown event": (lambda d: _with_margin(d, Margin("off_tip", "top", X, Role.TIP)), "'top'.*no known event"),
     "unknown role": (lambda d: _with_margin(d, Margin("off_tip", "tip", X, "crest")), "unknown role 'crest'"),
+    "role of another event": (
+        lambda d: _with_margin(d, Margin("off_tip", "tip", X, Role.ROOT)), "'tip'.*role ROOT of another event"
+    ),
+    "junction with nothing": (
+        lambda d: _with_margin(d, Margin("off_tip", "tip", X, Role.JUNCTION)), "'tip'.*is a junction and joins nothing"
+    ),
     "margin of strangers": (lambda d: _with_margin(d, Margin("off_tip", "tip", sp.Symbol("q"))), "needs q"),
     "margin that joins nothing": (
         lambda d: _with_margin(d, Margin("off_tip", "tip", X, joins="filet")), "joins the region 'filet'"
@@ -178,6 +204,47 @@ CASES = {
     "body without a motion": (
         lambda d: replace(d, pinion=replace(d.pinion, motion=Motion())), "motion of the pinion.*does not turn the body"
     ),
+    "limit that is nothing": (lambda d: _with_margin(d, Margin("off_tip", "tip", None)), "'tip' of the pinion is None"),
+    "rule that is a text": (lambda d: replace(d, rules=(Rule(MODULE, "m"),)), "rule for m is 'm'; give"),
+    "sample that is nothing": (
+        lambda d: replace(d, sample={**d.sample, "module_mm": None}), "gives None for 'module_mm'; give a number, or"
+    ),
+    "sample angle that is nothing": (lambda d: replace(d, sample_angle=None), "sample angle is None; give.*in rad"),
+    "sample angle that is no number": (lambda d: replace(d, sample_angle=float("nan")), "sample angle is nan; give"),
+    "natural size that is none": (lambda d: _with_scale(d, sp.nan), "natural size of the unknown l_pinion has nan"),
+    "natural size of strangers": (lambda d: _with_scale(d, sp.Symbol("q")), "size of the unknown l_pinion needs q"),
+    "start without a guess": (
+        lambda d: replace(d, start=replace(d.start, unknowns=(Unknown(X),))), "no guess for its unknown x_at_pinion"
+    ),
+    "limit twice": (
+        lambda d: replace(d, pinion=replace(d.pinion, margins=2 * (Margin("off_tip", "tip", X),))), "2 limits 'tip'"
+    ),
+    "function of strangers": (
+        lambda d: _with_function(d, "extra", sp.Symbol("q")), "'one' of extra needs q, which neither its arguments nor"
+    ),
+    "function that is no name": (lambda d: _with_function(d, "ex-tra"), "function 'ex-tra' is no name in C; use"),
+    "function of a surface's name": (lambda d: _with_function(d, "flank_pinion"), "'flank_pinion' has the name of one"),
+    "function twice": (
+        lambda d: replace(d, functions=2 * (solid("wheel", {"module": (1, "mm")}),)), "'solid_wheel' is there 2 times"
+    ),
+    "text that ends a comment": (lambda d: replace(d, title="a */ b"), r"title 'a \*/ b' has '\*/', which would end"),
+    "no sizes": (lambda d: replace(d, sizes=()), "no size that follows from the design; give at least one"),
+    "sign of strangers": (
+        lambda d: replace(d, pinion=replace(d.pinion, regular=sp.Symbol("q"))), "`regular` of the pinion needs q"
+    ),
+    "neither sign nor reference": (
+        lambda d: replace(d, pinion=replace(d.pinion, regular=None, reference={})), "reference point gives no l_pinion"
+    ),
+    "member of another name": (
+        lambda d: replace(d, wheel=replace(d.wheel, name="gear"), loading=None, functions=(), regions=()),
+        "the member wheel is named 'gear'; name it 'wheel'",
+    ),
+    "start of strangers": (
+        lambda d: replace(d, start=replace(d.start, outputs={**d.start.outputs, d.error: sp.Symbol("q")})),
+        "start of transmission_error needs q",
+    ),
+    "design system of strangers": (lambda d: _with_system(d, X - sp.Symbol("q")), "system one needs q, which is"),
+    "design system of too many equations": (lambda d: _with_system(d, X, X - 1), "one has 2 equations for 1 unknowns"),
     "wheel that does not turn": (
         lambda d: replace(d, wheel=replace(d.wheel, motion=d.pinion.motion)), "motion of the wheel.*does not turn"
     ),
@@ -327,6 +394,63 @@ def test_a_limit_without_a_value_at_the_contact_is_not_looked_at(limit):
     drive = _with_margin(_drive(POINT), Margin("off_tip", "tip", limit))
     validate(drive)
     _checked(drive)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda d: _with_scale(d, sp.Integer(0)), "natural size of the unknown l_pinion is 0 at the sample.*above 0"),
+        (lambda d: _with_scale(d, -MODULE), "natural size of the unknown l_pinion is -4 at"),
+        (lambda d: _with_scale(d, sp.sqrt(-MODULE)), "natural size of the unknown l_pinion is no real number"),
+        (lambda d: replace(d, guards=(Guard(3 - MODULE, "too large", ("module_mm",)),)),
+         "sample design breaks the guard 'too large' of module_mm: what must be above 0 is -1; correct it"),
+        (lambda d: replace(d, guards=(Guard(sp.sqrt(-MODULE), "no root", ("module_mm",)),)),
+         "guard 'no root'.*is no real number"),
+        (lambda d: _with_key(d, parameter("crown_mm", "c", "crown", domain=(0, 1)),
+                             rules=(*d.rules, Rule(Quantity("c", "mm"), MODULE))),
+         "key 'crown_mm' of the sample design follows as 4, outside its domain"),
+    ],
+)  # fmt: skip
+def test_a_sample_that_is_no_design_of_its_drive_is_refused(drive, change, message):
+    changed = change(drive)
+    validate(changed)
+    with pytest.raises(DescriptionError, match=f"{POINT}: .*{message}"):
+        sample_contact(derive(changed))
+
+
+@pytest.mark.parametrize("limit", [sp.sqrt(-1 - X**2), sp.acos(2 + X**2) + MODULE])
+def test_a_limit_without_a_value_anywhere_is_refused(drive, limit):
+    _limited(drive)
+    with pytest.raises(DescriptionError, match="'tip' of the pinion is no real number, neither .* nor anywhere around"):
+        _limited(_with_margin(drive, Margin("off_tip", "tip", limit)))
+
+
+def test_a_limit_that_has_a_value_elsewhere_or_none_for_an_open_key_is_not_refused(drive):
+    _limited(_with_margin(drive, Margin("off_tip", "tip", sp.sqrt(1 - X**2))))
+    reach = parameter("reach_mm", "reach", "where it ends")
+    _limited(_with_margin(_with_key(drive, reach), Margin("off_tip", "tip", sp.sqrt(-1 - X**2) + reach.symbol)))
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda d: d, ""),
+        (lambda d: replace(d, sample_angle=1), "at the sample angle 1 the contact is not on the .*'s tooth: its"),
+        (lambda d: _with_margin(d, Margin("off_tip", "tip", -1 - X**2)), "on the pinion's tooth: its limit 'tip' is -"),
+        (lambda d: replace(d, wheel=replace(d.wheel, regular=sp.S.One)),
+         "not on the wheel's tooth: its singular function is -.* there, which must not be below 0; choose another"),
+    ],
+)  # fmt: skip
+def test_a_sample_whose_contact_is_off_its_teeth_is_refused(drive, change, message):
+    plan = schedule(change(drive))
+    with mpmath.workdps(30), pytest.raises(DescriptionError, match=message) if message else nullcontext():
+        validate_place(plan.drive, observation(plan))
+
+
+def _limited(drive):
+    plan = schedule(drive)
+    with mpmath.workdps(30):
+        validate_limits(drive, observation(plan), plan.sample)
 
 
 def test_surfaces_that_cannot_touch_are_no_sample():

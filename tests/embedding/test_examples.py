@@ -107,19 +107,37 @@ def test_a_drive_that_does_not_exist_is_named_by_cmake(tmp_path):
     assert "there is no drive face_worms" in done.stderr
 
 
-def test_the_wheel_holds_library_metadata_and_headers(tmp_path):
-    """Built and unpacked, it runs by itself, outside the checkout."""
+@pytest.fixture(scope="module")
+def wheeled(tmp_path_factory):
+    """Runs a module of the wheel, unpacked, as Python would outside the checkout: what it prints."""
+    folder = tmp_path_factory.mktemp("wheel")
     built = ("--no-build-isolation", "--config-settings", "libraries=built")
-    c.run(sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", *built, "--wheel-dir", tmp_path, c.ROOT)
-    (wheel,) = tmp_path.glob("*.whl")
+    c.run(sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", *built, "--wheel-dir", folder, c.ROOT)
+    (wheel,) = folder.glob("*.whl")
     assert "-py3-none-" in wheel.name
-    c.run(sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--target", tmp_path / "site", wheel)
-    code = "import sys, meshwright.cli as m; print(m.__file__); sys.exit(m.main(sys.argv[1:]))"
-    command = [sys.executable, "-c", code, "tca", "recess-action-full", "--phi-deg", "400"]
-    environment = {**os.environ, "PYTHONPATH": str(tmp_path / "site")}
-    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True)
-    assert done.stdout.startswith(str(tmp_path / "site"))
-    assert "converged" in done.stdout
+    c.run(sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--target", folder / "site", wheel)
+    environment = {**os.environ, "PYTHONPATH": str(folder / "site"), "MESHWRIGHT_CACHE": str(folder / "cache")}
+
+    def run(*command):
+        return c.run(sys.executable, *command, env=environment, cwd=folder)
+
+    place = run("-c", "import derive, meshwright; print(derive.__file__, meshwright.__file__)")
+    assert place.count(str(folder / "site")) == 2
+    return run
+
+
+def test_the_wheel_holds_library_metadata_and_headers(wheeled):
+    assert "converged" in wheeled("-m", "meshwright", "tca", "recess-action-full", "--phi-deg", "400")
+
+
+@pytest.mark.validate
+def test_drives_are_derived_from_the_wheel(wheeled, tmp_path):
+    """A drive of one's own, and a combination of tools that no packaged design uses when a command asks for it."""
+    own = c.ROOT / "tests" / "outside" / "drives" / "crossed_helicoids.py"
+    wheeled("-m", "derive", own, "--into", tmp_path)
+    assert (tmp_path / "crossed_helicoids.so").exists()
+    mixed = ("tca", "recess-action-full", "--set", "design.hob_profile=ZI", "--phi-deg", "400")
+    assert wheeled("-m", "meshwright", *mixed) == c.run(sys.executable, "-m", "meshwright", *mixed)
 
 
 @pytest.mark.validate

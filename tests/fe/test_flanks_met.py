@@ -4,8 +4,11 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
+from meshwright.fe.gap import ContactPlane
+from meshwright.fe.pair import touches
 from meshwright.fe.profile import Cut, Smooth
 from meshwright.fe.solids import gear_pair
+from meshwright.fe.tooth import moved
 
 #: A thread and a generated wheel, threads that are envelopes, gears of one and of two parameters along the tooth.
 NAMES = ("recess-action-full", "face-worm-conical-convex", "spherical-table-3-1-concave", "bevel-crowned-both")
@@ -49,6 +52,23 @@ def test_lines_that_miss_the_flank_meet_nothing(pair):
     plane = np.linalg.svd(normals[3:4])[2][1:]
     _, _, met = flank.surface.pierced(points[:1] + 1e6 * plane[0], plane, tuple(places[3]))
     assert np.isnan(met).all()
+
+
+def test_corners_on_the_edges_of_a_flank_lie_on_it():
+    """The mesh ends on the edges: a corner there that rounding puts beyond them would keep the gap of its facets."""
+    drive = Drive.load("bevel-hypoid")
+    gear, window = gear_pair(drive), drive.contact_ratio()
+    (contact,) = touches(gear, 0.5 * (window.begin.angle + window.end.angle), 1)
+    plane = ContactPlane.of(gear, contact, (contact.touch.pinion_angle, contact.wheel_angle))
+    for of in plane.flanks.values():
+        curves, (low, high) = of.rail.curves, of.form.faces
+        sections = np.linspace(0.7 * low + 0.3 * high, 0.3 * low + 0.7 * high, 40)
+        for end in (curves.first, curves.last):
+            edge = moved(of.pose, curves.points(sections, end(sections)[:, None])[:, 0])
+            found = of.under(edge)
+            met = np.linalg.norm(found.points - edge, axis=1) < 1e-8
+            assert np.count_nonzero(met) > 5
+            assert found.inside[met].all()
 
 
 @pytest.mark.parametrize("member", ["pinion", "wheel"])

@@ -585,7 +585,10 @@ static void first(reader *r, fuzzed *f)
         if (which == 2) wheel[i % (12 * from->steps)] = number(r, wheel[i % (12 * from->steps)]);
         if (which == 3) begin[i % numbers_of] = number(r, begin[i % numbers_of]);
     }
-    if (byte(r) > 240) mesh.bound = (int)(byte(r) % 5) - 2;
+    if (byte(r) > 240) {
+        int *which = mesh.span + byte(r) % 2;
+        *which = (int)(byte(r) % 5) - 2;
+    }
     mw_first *found = room(1, sizeof *found);
     const double turn = number(r, from->turn), sense = number(r, from->sense), until = number(r, -sense * HUGE_VAL);
     const int status = mw_first_contact(m, f->s, &mesh, pinion, wheel, from->steps, turn, sense, begin, until, work, found);

@@ -187,8 +187,8 @@ def _first(own, search, table, pinion, wheel, start):
         _array(f"{own}_wheel_sizes", wheel_sizes), _array(f"{own}_pinion_sizes", pinion_sizes),
         _array(f"{own}_pinion", pinion), _array(f"{own}_wheel", wheel), _array(f"{own}_start", start),
         f"static const first_seed {own}_first = {{ {{ {table.vertices}, {table.triangles}, {own}_q, {own}_corner, "
-        f"{own}_open, {table.bound}, {own}_wheel_sizes, {own}_pinion_sizes }}, {own}_pinion, {own}_wheel, "
-        f"{len(pinion)}, {_number(search.turn)}, {_number(search.sense)}, {own}_start }};",
+        f"{own}_open, {{ {table.span[0]}, {table.span[1]} }}, {own}_wheel_sizes, {own}_pinion_sizes }}, {own}_pinion, "
+        f"{own}_wheel, {len(pinion)}, {_number(search.turn)}, {_number(search.sense)}, {own}_start }};",
     ]  # fmt: skip
 
 

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 import tomllib
@@ -10,6 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from derive import outside
+from derive.audit.checker import attempts
+from derive.passes.equations import derive
+from derive.passes.pivot_order import reduce
 from meshwright import Drive
 from meshwright.base import compile as build
 from meshwright.base import drives, first_use
@@ -124,7 +129,71 @@ def test_its_audit_entry_says_what_is_proved_checked_and_not(folder):
     assert "cylindrical_worm/contact" in entry["proved"]
     assert entry["not_proved"] == {}
     assert set(entry["checked"].values()) == {"holds"}
+    assert entry["counts"] == {"holds": len(entry["checked"]), "does not hold": 0, "not decided": 0}
     assert entry["not_checked"] and entry["source"]["file"] == FILE.name
+
+
+def test_a_generating_motion_may_turn_by_any_polynomial_of_its_angle(tmp_path):
+    """The worm of a plane that does not roll evenly: its equation of meshing is linear by identities alone."""
+    text = (FILE.parent / "hourglass_worm.py").read_text(encoding="utf-8")
+    path = tmp_path / "uneven.py"
+    path.write_text(text.replace("Rz(-ratio * theta)", "Rz(-ratio * theta - theta**3 / 1000)"), encoding="utf-8")
+    assert path.read_text(encoding="utf-8") != text
+    (page,) = outside.catalogue_of(path).values()
+    plan = reduce(derive(page()))
+    assert len(plan.change) == len(plan.unknowns) == 5
+
+
+GENERATED = ROOT / "generated" / "c" / "spherical_convex_spur.h"
+
+
+@pytest.fixture
+def header(monkeypatch):
+    """A header that was generated, checked in seconds whatever is changed in it."""
+    monkeypatch.setattr(attempts, "ATTEMPTS", 400)
+    return GENERATED.read_text(encoding="utf-8")
+
+
+def test_what_the_checker_of_c_does_not_foresee_is_neither_right_nor_wrong(header):
+    """An eleventh of an angle, a word that is no statement, a header that is none."""
+    angle = re.compile(r"( +\w+_sincos\()(x\[\d+\]|p\[\d+\])(, &s)")
+    eleventh = angle.sub(r"    const double t9999 = \2 * 0.09090909090909091;\n\1t9999\3", header)
+    changed = {
+        "an angle is a fraction of": eleventh,
+        "not a straight-line statement": header.replace("    R[0] = ", "    goto R[0] = ", 1),
+        "": "int main(void);\n",
+    }
+    for reason, wrong in changed.items():
+        assert wrong != header
+        found = outside.checked(wrong)
+        open_ = [verdict for verdict in found.values() if verdict != "holds"]
+        assert open_ and all(verdict.startswith("not decided: ") and reason in verdict for verdict in open_), found
+
+
+def test_what_is_wrong_in_c_does_not_hold_and_the_entry_counts_it(header):
+    wrong = re.sub(r"J\[7\] = (.+);", r"J[7] = 2.0 * (\1);", header, count=1)
+    wrong = re.sub(r"J\[7\] = 2.0 \* \((\w+)\);", r"J[7] = 2.0 * \1;", wrong)
+    found = outside.checked(wrong)
+    assert found["jacobian of the residual"] == "does not hold: eval: J[1][2] is not the derivative of R[1]"
+    about = {"name": "a_drive", "specification_hash": "", "root_hash": "", "equations": {}, "equations_of": {}}
+    entry = outside.audit_entry(about, {}, found | {"one more": "not decided: for a reason"}, None)
+    failed = entry["counts"]["does not hold"]
+    assert failed > 0 and entry["counts"]["not decided"] == 1 and sum(entry["counts"].values()) == len(found) + 1
+    assert outside.undecided_or_wrong(entry).endswith(f" holds, {failed} does not hold, 1 not decided")
+
+
+def test_what_a_c_compiler_refuses_is_said_by_the_function_of_the_description(tmp_path):
+    """A function of the description that is called like one which every drive has."""
+    path = tmp_path / "mine.py"
+    another = 'functions=(Function("eval", "a function", (), (Result("one", (S(1),)),)),)'
+    imported = "from derive.language.functions import Function, Result\nfrom sympy import S"
+    text = CONTRADICTION.replace('handed="upright"', another).replace("from sympy import S", imported)
+    path.write_text(text, encoding="utf-8")
+    done = run(path, "--into", tmp_path / "out", module="derive")
+    said = done.stderr.splitlines()[-1]
+    assert done.returncode == 2 and "Traceback" not in done.stderr and "cc1" not in done.stderr
+    assert said.startswith("a_drive: the C that is made of the description does not compile: the function eval, a_dri")
+    assert said.endswith("another name in the description, or what it lacks") and "a_drive_eval" in said
 
 
 def test_a_folder_that_is_none_is_refused(tmp_path):
@@ -135,10 +204,13 @@ def test_a_folder_that_is_none_is_refused(tmp_path):
 #: A drive of the tree under another name, with a hand that is none.
 CONTRADICTION = """
 from dataclasses import replace
+from sympy import S
 from derive.drives import spherical
+from derive.language.symbols import Quantity, Unknown
 
 def catalogue():
-    drive = replace(spherical.spherical("spur", "spur"), name="a_drive", handed="upright")
+    d, L = spherical.spherical("spur", "spur"), Quantity("l_pinion", "mm")
+    drive = replace(d, name="a_drive", handed="upright")
     return {"a_drive": lambda: drive}
 """
 
@@ -151,6 +223,9 @@ def catalogue():
      ("def catalogue():\n    return {}\n", "catalogue() returns {}; return a dict"),
      (CONTRADICTION, "handed = 'upright'"),
      (CONTRADICTION.replace('handed="upright"', 'family="own"'), "outline of the family own: pinion_form = 'convex'"),
+     (CONTRADICTION.replace('handed="upright"', 'sample=d.sample | {"module_mm": None}'), "None for 'module_mm'; give"),
+     (CONTRADICTION.replace('handed="upright"', 'unknowns=(Unknown(L, S(-1)), *d.unknowns[1:])'),
+      "natural size of the unknown l_pinion is -1 at the sample design; give one that is above 0"),
      (CONTRADICTION.replace('"a_drive"', '"face_worm"'), "name 'face_worm' is that of a drive of another family")],
 )  # fmt: skip
 def test_a_file_that_defines_no_drive_is_refused_with_the_reason(tmp_path, text, reason):

@@ -35,6 +35,26 @@ def test_a_misalignment_that_cannot_be_shown_is_bad_input(given, said, capsys):
     assert said in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("play", "key"), [(-20 * ARCSEC, "misalignment.center_distance_mm larger by"), (20 * ARCSEC, None)]
+)
+def test_a_drive_that_jams_is_told_which_of_its_own_sizes_give_it_room(analysed, play, key):
+    """Spherical gears have no cutting centre distance; theirs are the widths of the cutter and the assembly."""
+    analysis = analysed("spherical-table-3-1-concave")
+    jammed = replace(analysis, running=replace(analysis.running, backlash=play))
+    said = [f.text for f in findings(jammed) if "jams" in f.text]
+    assert bool(said) == bool(key)
+    assert all(key in text and "half_space_mm smaller by" in text and "cutting" not in text for text in said)
+
+
+def test_teeth_that_lose_contact_before_the_next_pair_are_a_warning(analysed):
+    """Lines of contact of a narrow window: the report has no running pairs there, and says so all the same."""
+    drive = Drive.load("spur-profile-shift").with_(blank={"pinion_tip_radius_mm": 18.2})
+    analysis = SimpleNamespace(**{**vars(analysed("spherical-table-3-1-concave")), "drive": drive, "running": None})
+    assert any(f.kind == "warn" and "Contact ratio 0.380, below 1" in f.text for f in findings(analysis))
+    assert not any("below 1" in f.text for f in findings(analysed("spherical-table-3-1-concave")))
+
+
 def test_a_drawing_states_each_member_and_both(analysed):
     analysis = analysed("spherical-table-3-1-concave")
     pinion, wheel, both = drawing(analysis).tables

@@ -62,7 +62,7 @@ def test_every_contact_lies_on_both_drawn_flanks(name, share, analysed):
 def test_drawn_flanks_keep_within_the_blank(name):
     """Also where the surface has a pole beyond the tip: no vertex past tip or face."""
     drive = Drive.load(name)
-    data = tooth_data(drive, "wheel", drive.design.value("wheel_teeth"), 1, 0.5)
+    data = tooth_data(drive, "wheel", drive.design.value("wheel_teeth"), 0.5)
     points = unpacked(data["points"], -1, 3)
     corners = np.frombuffer(base64.b64decode(data["triangles"]), dtype="<u4").reshape(-1, 3)
     assert len(corners) > 500 and corners.max() < len(points)

@@ -145,6 +145,25 @@ def guard_texts(drive: Drive) -> list[str]:
     return texts
 
 
+OPEN = re.compile(r"p\[(\d+)\] != p\[\1\]")
+
+
+def check_missing(drive: Drive, _rng: Random) -> None:
+    """Each required key is missed by itself, further ones together, and the text that is chosen begins with them."""
+    *lines, last = body_of(drive.text, f"{drive.prefix}_missing").splitlines()
+    texts, alone = guard_texts(drive), []
+    keys = {entry["symbol"]["name"]: entry for entry in drive.description["keys"]}
+    for line in lines if lines != ["    (void)p;"] else []:
+        found = re.fullmatch(r"    if \((.*)\) return (\d+);", line)
+        require(found and all(map(OPEN.fullmatch, found[1].split(" && "))), f"missing: {line}")
+        entries = [keys[drive.parameters[int(k)]] for k in OPEN.findall(found[1])]
+        places = [e["key"] if e["table"] == "design" else f"{e['table']}.{e['key']}" for e in entries]
+        require(texts[int(found[2]) - 1].startswith(f"{', '.join(places)}: "), f"missing: a text of other keys, {line}")
+        alone += entries if len(entries) == 1 else []
+    require(last == "    return otherwise;", f"missing: {last}")
+    require(alone == [e for e in keys.values() if e["required"]], "missing: other keys than those that are required")
+
+
 CHANGED = re.compile(
     r"^    if \(known\[(\d+)\] != known\[\1\]((?: && known\[\d+\] == known\[\d+\])*)\) "
     r"(?:{[^\n]*\n(.*?)\n    }|known\[\1\] = p\[\1\];)$",

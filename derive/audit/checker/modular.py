@@ -9,7 +9,7 @@ from fractions import Fraction
 from random import SystemRandom
 
 from .numbers import random_prime
-from .refusal import require
+from .refusal import foreseen
 
 #: Drawn anew in every run; 3 modulo 4, so that the root of a square can be had by a power.
 PRIME = random_prime(SystemRandom())
@@ -65,7 +65,7 @@ def multiply(a: Number, b: Number) -> Number:
 
 
 def divide(a: Number, b: Number) -> Number:
-    require(b.value, "a division by zero")
+    foreseen(b.value, "a division by zero")
     inverse = pow(b.value, -1, PRIME)
     value = a.value * inverse % PRIME
     return Number(value, combined(a.rates, inverse, b.rates, -value * inverse))

@@ -13,7 +13,10 @@ SOLVED = {
     "solve_design": """
     double work[X_NP + 1];
     mw_info unused;
-    return mwi_complete(&X_model, p, work, info ? info : &unused);""",
+    mw_info *const record = info ? info : &unused;
+    X_derive(p);
+    *record = mwi_ended(MW_BAD_INPUT, X_missing(p, 0));
+    return record->guard ? 0 : mwi_complete(&X_model, p, work, record);""",
     "solve": """
     double p[X_NP], work[X_NP];
     mw_info unused;

@@ -8,7 +8,7 @@ from itertools import repeat
 from random import Random, SystemRandom
 
 from .modular import NoRoot
-from .refusal import Rejected
+from .refusal import Rejected, Undecided
 
 #: Inputs that may be drawn until every radicand is a square, and inputs at which a check may fail before it is over.
 ATTEMPTS = 20000
@@ -31,7 +31,8 @@ def attempt(check: Callable[..., None], *arguments: object, sources: Iterable[Ra
     has.
 
     Modulo a prime, sqrt(x*y*y) is y*sqrt(x) only up to sign, so a right program passes at a share of all inputs. A
-    wrong one passes at none: one input at which everything holds is enough.
+    wrong one passes at none: one input at which everything holds is enough. Where none is found, what was not foreseen
+    at one of them goes before what failed: it may be why.
     """
     refusals: list[Rejected] = []
     for rng in sources or repeat(SystemRandom(), ATTEMPTS):
@@ -43,4 +44,6 @@ def attempt(check: Callable[..., None], *arguments: object, sources: Iterable[Ra
             refusals.append(reason)
             if len(refusals) == REFUSALS:
                 break
-    raise refusals[-1] if refusals else Rejected("no input was found at which every root exists")
+    if not refusals:
+        raise Undecided("no input was found at which every root exists")
+    raise next((reason for reason in refusals if isinstance(reason, Undecided)), refusals[-1])

@@ -9,7 +9,7 @@ points of the circle; derivatives are those of dual numbers. Then, for every dri
   state      the parameters at its end
   systems    of a design: guess, natural sizes, equations with Jacobian, what they fill in, where they are regular,
              changes of equations and of what they fill in
-  guards     what must be positive, in its order; divisors by the name in their message
+  guards     what must be positive, in its order; divisors by the name in their message; which keys are missing
   sizes      derived sizes
   residual   of contact and start; natural sizes, guess and first contact
   chain      a point is carried by the factors of its motions, a normal turned by them and divided by its length, in the
@@ -51,6 +51,7 @@ from .design import (
     check_filled_changes,
     check_guard,
     check_kept,
+    check_missing,
     check_open,
     check_rules,
     check_sizes,
@@ -86,6 +87,7 @@ def checks_of(drive: Drive) -> Iterator[tuple[str, tuple]]:
     for k, words in enumerate(guard_texts(drive)):
         if k < len(described["guards"]) or DIVISOR.search(words):
             yield f"guard {k}", (check_guard, drive, k)
+    yield "keys that are missing", (check_missing, drive)
     for k, entry in enumerate(described["sizes"]):
         yield f"size {entry['key']}", (check_sizes, drive, k)
     for k in range(len(described["contact"]["residual"])):

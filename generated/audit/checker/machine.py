@@ -7,7 +7,7 @@ from fractions import Fraction
 from random import Random
 
 from .modular import PI, PRIME, NoRoot, Number, add, combined, divide, halved, multiply, root, scaled, sign, square_root
-from .refusal import require
+from .refusal import foreseen
 from .straight_line import Function, Header, letter_of, literal_of, parsed
 
 #: Angles are whole multiples of a quarter of each independent angle.
@@ -55,7 +55,7 @@ class Machine:
             exact, angle = literal
             unit = PI if angle else 1
             return Number(unit * exact.numerator * pow(exact.denominator, -1, PRIME) % PRIME, (), angle)
-        require(self.earlier is not None, f"{name} has no value")
+        foreseen(self.earlier is not None, f"{name} has no value")
         return self.earlier.value(name)
 
     def _expression(self, text: str) -> Number:
@@ -101,7 +101,7 @@ class Machine:
 
     def arc(self, y: Number, x: Number) -> Number:
         square = (x.value * x.value + y.value * y.value) % PRIME
-        require(square, "an arc of nothing")
+        foreseen(square, "an arc of nothing")
         inverse = pow(square, -1, PRIME)
         name = ("arc", y.value, x.value)
         rates = combined(y.rates, x.value * inverse, x.rates, -y.value * inverse)
@@ -128,7 +128,7 @@ class Machine:
             else:
                 c, s, parts = self.circle(name, factor.denominator)
                 times = parts * factor
-            require(times.denominator == 1, f"an angle is a fraction of {name} that is not foreseen")
+            foreseen(times.denominator == 1, f"an angle is a fraction of {name} that is not foreseen")
             s = s if times > 0 else -s
             for _ in range(abs(times.numerator)):
                 cosine, sine = (cosine * c - sine * s) % PRIME, (sine * c + cosine * s) % PRIME
@@ -169,7 +169,7 @@ class Circle:
 
     def _of_arc(self, name: tuple, parts: int) -> tuple[int, int]:
         """A part of an arc that has the cosine and sine of its sides: halves are roots, so only where they are met."""
-        require(parts in (1, 2, 4), f"a part of an arc that is not foreseen: {parts}")
+        foreseen(parts in (1, 2, 4), f"a part of an arc that is not foreseen: {parts}")
         if (name, parts) not in self.points:
             if parts == 1:
                 _, y, x = name

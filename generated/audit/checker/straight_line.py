@@ -11,7 +11,7 @@ from functools import cache
 from pathlib import Path
 
 from .enclosure import number_of
-from .refusal import require
+from .refusal import foreseen
 
 DIVISOR = 720
 PI_ENCLOSED = number_of("pi").middle
@@ -171,7 +171,7 @@ def read_body(body: str) -> dict[str, tuple[str, str]]:
     for line in without_blocks(body):
         statement = STATEMENT.fullmatch(line)
         if statement is None:
-            require(SILENT.match(line), f"not a straight-line statement: {line}")
+            foreseen(SILENT.match(line), f"not a straight-line statement: {line}")
         elif statement[5]:
             definitions[statement[6]], definitions[statement[7]] = ("sin", statement[5]), ("cos", statement[5])
         else:

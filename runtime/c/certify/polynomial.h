@@ -205,11 +205,40 @@ static inline mw_polynomial mwc_poly_magnitude(mw_polynomial a)
     return half < HUGE_VAL ? size : mwc_poly_undefined(size);
 }
 
-static inline mw_polynomial mwc_poly_sign(mw_polynomial a)
+/* Which side is taken of each number whose sign is not known everywhere, in the order in which they are met: bit k of `taken`
+ * set, the side above 0. met: so many in this run; bits: in the longest of all runs; most: that may be taken so. */
+typedef struct mwc_sides {
+    int most, met, bits;
+    unsigned taken;
+} mwc_sides;
+
+/* Whether there are further sides to take. */
+static inline int mwc_other_sides(mwc_sides *s)
 {
-    const mw_polynomial sign = mwc_poly_of_ball(mwc_make(a.c[0] < 0.0 ? -1.0 : 1.0, 0.0));
+    if (++s->taken >> s->bits == 0) return 1;
+    s->taken = 0;
+    return s->bits = 0;
+}
+
+/* -1 below 0, else 1, and that of the side which is taken where both occur. */
+static inline mw_polynomial mwc_poly_sign(mw_polynomial a, mwc_sides *s)
+{
     const int zero = a.c[0] == 0.0 && mwc_poly_part(&a, 1) == 0.0 && a.radius == 0.0;
-    return zero || mwc_poly_least(&a) > 0.0 ? sign : mwc_poly_undefined(sign);
+    const int known = zero || mwc_poly_least(&a) > 0.0, above = known ? a.c[0] >= 0.0 : (int)(s->taken >> s->met & 1U);
+    const mw_polynomial sign = mwc_poly_of_ball(mwc_make(above ? 1.0 : -1.0, 0.0));
+    if (known) return sign;
+    if (s->met == s->most) return mwc_poly_undefined(sign);
+    if (++s->met > s->bits) s->bits = s->met;
+    return sign;
+}
+
+/* Holds what either holds. */
+static inline mw_polynomial mwc_poly_hull(mw_polynomial a, mw_polynomial b)
+{
+    const mw_polynomial half = mwc_poly_of_ball(mwc_make(0.5, 0.0)), apart = mwc_poly_sub(a, b);
+    mw_polynomial middle = mwc_poly_mul(half, mwc_poly_add(a, b));
+    middle.radius = (middle.radius + 0.5 * mwc_poly_most(&apart)) * MWC_SUMMED;
+    return middle;
 }
 
 /* Value at a number t of [-1, 1]. */

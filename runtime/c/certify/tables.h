@@ -31,6 +31,7 @@ enum { MWC_REGISTERS = 640, MWC_ARGUMENTS = 512 };
 #define MWC_NUMBER mw_polynomial
 #define MWC_DO(operation) mwc_poly_##operation
 #define MWC_CONSTANT(c) mwc_poly_of_wide(c)
+#define MWC_CHOICE mwc_sides
 #include "run.h"
 #endif
 

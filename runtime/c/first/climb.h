@@ -199,25 +199,26 @@ typedef struct best_ {
 } best_;
 
 /* The search with points of the pinion given: where the pinion's flank ends at its singular line the wheel's points do not
- * determine the pinion's smoothly, but the pinion's do the wheel's. Its condition gives the parameter that moves it most. */
+ * determine the pinion's smoothly, but the pinion's do the wheel's. Each of its conditions gives the parameter that moves it most. */
 static search by_the_pinion(const search *h, const place *at)
 {
     const mw_body *pinion = &h->m->bodies[0];
     search by = *h;
-    by.given = 0;
-    by.bound[0] = -1;
-    if (pinion->conditions) {
-        double o[MAX_OUTPUTS], most = -1.0;
-        pinion->flank(h->s, at->p, o);
-        for (int i = 0; i < h->nk; i++) {
-            const double slope = fabs(o[conditions_at(pinion) + 1 + i]) * h->mesh->pinion_sizes[i];
-            if (slope > most) {
-                most = slope;
-                by.bound[0] = i;
-            }
-        }
+    double o[MAX_OUTPUTS];
+    int given[MAX_K] = {0}, free_[MAX_K], left = 0;
+    pinion->flank(h->s, at->p, o);
+    for (int c = 0; c < pinion->conditions; c++) {
+        const double *slopes = condition_of(pinion, o, c) + 1;
+        int most = -1;
+        for (int i = 0; i < h->nk; i++)
+            if (!given[i] && (most < 0 || fabs(slopes[i]) * h->mesh->pinion_sizes[i]
+                                              > fabs(slopes[most]) * h->mesh->pinion_sizes[most])) most = i;
+        given[most] = 1;
     }
-    others(h->nk, by.bound[0], by.free_[0]);
+    for (int i = 0; i < h->nk; i++)
+        if (!given[i]) free_[left++] = i;
+    by.given = 0;
+    span(&by, 0, free_[0], free_[1]);
     return by;
 }
 

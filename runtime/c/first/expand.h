@@ -4,7 +4,7 @@
 
 #include "meet.h"
 
-enum { MAX_SECOND = (3 + MAX_LIMITS + 1) * MAX_K * (MAX_K + 1) / 2 };
+enum { MAX_SECOND = (3 + MAX_LIMITS + MAX_C) * MAX_K * (MAX_K + 1) / 2 };
 
 /* Value, slopes and second derivatives of the wheel angle and of every limit at a place, in natural sizes. */
 typedef struct model_ {
@@ -30,7 +30,7 @@ static void to_second_order(const search *h, int member, const double *q, bent *
     expansion->second(h->s, q, f->second);
 }
 
-/* Second derivative of number i of (point, limits, condition) along directions a and b of the parameters. */
+/* Second derivative of number i of (point, limits, conditions) along directions a and b of the parameters. */
 static double bent_by(const bent *f, int i, const double *a, const double *b)
 {
     const double *pair = f->second + i * f->pairs;
@@ -48,13 +48,14 @@ static double along(int k, const double *slopes, const double *a)
 }
 
 /* Implicit differentiation of a place by the given member's free parameters. The equations, that both points are one and
- * that each flank keeps its condition, have the parameters of both and the angle as unknowns z. */
+ * that each flank keeps its conditions, have the parameters of both and the angle as unknowns z. */
 static int expand(const search *h, const place *P, model_ *q)
 {
     enum { MOST = 2 * MAX_K + 1 };
     static const int A[3] = {0, 0, 1}, B[3] = {0, 1, 1};
     const mw_body *pinion = &h->m->bodies[0], *wheel = &h->m->bodies[1];
-    const int of_pinion = h->nw, of_angle = h->nw + h->nk, n = 3 + wheel->conditions + pinion->conditions;
+    const int of_pinion = h->nw, of_angle = h->nw + h->nk;
+    const int kept = 3 + wheel->conditions, n = kept + pinion->conditions;
     bent p, w;
     double J[(2 * MAX_K - 1) * MOST] = {0.0}, z[2][MOST], zz[3][MOST], rate[3], x[3], swept[2][3], inwards[3];
     int follows[MOST];
@@ -66,11 +67,12 @@ static int expand(const search *h, const place *P, model_ *q)
         double tangent[3];
         carried(h, w.o + 6 + 3 * j, &by, tangent, NULL);
         for (int i = 0; i < 3; i++) J[i * MOST + j] = -tangent[i];
-        if (wheel->conditions) J[3 * MOST + j] = w.o[conditions_at(wheel) + 1 + j];
+        for (int i = 0; i < wheel->conditions; i++) J[(3 + i) * MOST + j] = condition_of(wheel, w.o, i)[1 + j];
     }
     for (int j = 0; j < h->nk; j++) {
         for (int i = 0; i < 3; i++) J[i * MOST + of_pinion + j] = p.o[6 + 3 * j + i];
-        if (pinion->conditions) J[(n - 1) * MOST + of_pinion + j] = p.o[conditions_at(pinion) + 1 + j];
+        for (int i = 0; i < pinion->conditions; i++)
+            J[(kept + i) * MOST + of_pinion + j] = condition_of(pinion, p.o, i)[1 + j];
     }
     for (int i = 0; i < 3; i++) J[i * MOST + of_angle] = -rate[i];
     const int *free_ = h->free_[h->given], first = h->given ? 0 : of_pinion;
@@ -103,8 +105,9 @@ static int expand(const search *h, const place *P, model_ *q)
         for (int i = 0; i < 3; i++)
             r[i] = x[i] + swept[A[c]][i] * zb[of_angle] + swept[B[c]][i] * za[of_angle]
                    + inwards[i] * za[of_angle] * zb[of_angle] - bent_by(&p, i, za + of_pinion, zb + of_pinion);
-        if (wheel->conditions) r[3] = -bent_by(&w, 3 + w.limits, za, zb);
-        if (pinion->conditions) r[n - 1] = -bent_by(&p, 3 + p.limits, za + of_pinion, zb + of_pinion);
+        for (int i = 0; i < wheel->conditions; i++) r[3 + i] = -bent_by(&w, 3 + w.limits + i, za, zb);
+        for (int i = 0; i < pinion->conditions; i++)
+            r[kept + i] = -bent_by(&p, 3 + p.limits + i, za + of_pinion, zb + of_pinion);
         if (!solve(M, r, n)) return 0;
         for (int j = 0; j < 2; j++) zz[c][first + free_[j]] = 0.0;
         for (int j = 0; j < n; j++) zz[c][follows[j]] = r[j];

@@ -9,8 +9,9 @@
 #include "../meshwright.h"
 
 enum {
-    MAX_K = 3,                   /* parameters of a flank */
-    MAX_OUTPUTS = 48,            /* of a flank: 7 + 4 parameters and conditions, margins */
+    MAX_C = 2,                   /* conditions on a flank */
+    MAX_K = 2 + MAX_C,           /* parameters of a flank */
+    MAX_OUTPUTS = 48,            /* of a flank: point, normal and limits, and those of parameters and conditions */
     MAX_LIMITS = 18,             /* of both flanks, and four of a trust region */
     NEWTON_STEPS = 14
 };
@@ -29,12 +30,12 @@ typedef struct search {
     double turn, sense;
     int nk, nw;                  /* parameters of pinion and wheel */
     int given;                   /* whose point is given, 0 pinion, 1 wheel: it is looked for on the other's flank */
-    int bound[2], free_[2][2];   /* parameters of each flank: that its condition gives, or -1; the others */
+    int free_[2][2], bound[2][MAX_C]; /* parameters of each flank: two that span it; those that its conditions give */
 } search;
 
-/* What Newton's method asks of the pinion's flank at parameters p: tangents, its condition with slopes. */
+/* What Newton's method asks of the pinion's flank at parameters p: tangents, its conditions with slopes. */
 typedef struct linear {
-    double p[MAX_K], tangents[3 * MAX_K], condition[1 + MAX_K];
+    double p[MAX_K], tangents[3 * MAX_K], conditions[MAX_C * (1 + MAX_K)];
 } linear;
 
 /* One point of the wheel's flank and where it meets the pinion's. value: sense times the wheel angle. */
@@ -100,16 +101,44 @@ static int conditions_at(const mw_body *b)
     return 7 + 3 * b->parameters + b->margins;
 }
 
+/* A body's condition of a number, with its slopes, among the outputs of its flank. */
+static const double *condition_of(const mw_body *b, const double *o, int number)
+{
+    return o + conditions_at(b) + number * (1 + b->parameters);
+}
+
 static const double *sizes_of(const search *h, int member)
 {
     return member ? h->mesh->wheel_sizes : h->mesh->pinion_sizes;
 }
 
-/* The parameters that are left without the one that a condition gives. */
-static void others(int parameters, int bound, int *free_)
+/* Let two parameters of a member span its flank: its conditions give the others. */
+static void span(search *h, int member, int first, int second)
 {
-    for (int i = 0, k = 0; i < parameters; i++)
-        if (i != bound && k < 2) free_[k++] = i;
+    h->free_[member][0] = first;
+    h->free_[member][1] = second;
+    for (int i = 0, k = 0; i < h->m->bodies[member].parameters; i++)
+        if (i != first && i != second) h->bound[member][k++] = i;
+}
+
+/* Slopes of a member's conditions by the parameters that they give, by rows. */
+static void by_bound(const search *h, int member, const double *o, double *M)
+{
+    const mw_body *body = &h->m->bodies[member];
+    for (int i = 0; i < body->conditions; i++)
+        for (int j = 0; j < body->conditions; j++)
+            M[i * body->conditions + j] = condition_of(body, o, i)[1 + h->bound[member][j]];
+}
+
+/* By how much the parameters that a member's conditions give fall with another one. */
+static void falls(const search *h, int member, const double *o, int number, double *fall)
+{
+    const mw_body *body = &h->m->bodies[member];
+    double M[MAX_C * MAX_C];
+    by_bound(h, member, o, M);
+    for (int i = 0; i < body->conditions; i++) fall[i] = condition_of(body, o, i)[1 + number];
+    if (body->conditions && !solve(M, fall, body->conditions))
+        for (int i = 0; i < body->conditions; i++) fall[i] = NAN;
 }
 
 /* Whether a Newton step after another one, by both of which the method converges quadratically, is the last that matters. */
@@ -118,23 +147,27 @@ static int converged(double step, double before)
     return before < HUGE_VAL && step < QUADRATIC * before && step * (step / before) * (step / before) < NEXT_DONE;
 }
 
-/* A flank at two of its parameters: q completed from its condition, outputs o. */
+/* A flank at two of its parameters: q completed from its conditions, outputs o. */
 static int on_flank(const search *h, int member, double *q, double *o)
 {
     const mw_body *body = &h->m->bodies[member];
-    const double *condition = o + conditions_at(body);
-    const int bound = h->bound[member];
-    for (int k = 0; k < NEWTON_STEPS; k++) {
-        body->flank(h->s, q, o);
-        if (bound < 0) break;
-        const double step = condition[0] / condition[1 + bound];
-        if (!(fabs(step) < HUGE_VAL)) return 0;
-        if (fabs(step) < NEXT_DONE * sizes_of(h, member)[bound]) break;
-        q[bound] -= step;
-        if (fabs(step) < STEP_DONE * sizes_of(h, member)[bound]) {
-            body->flank(h->s, q, o);
-            break;
+    const int *bound = h->bound[member], n = body->conditions;
+    double M[MAX_C * MAX_C], step[MAX_C];
+    body->flank(h->s, q, o);
+    for (int k = 0; k < NEWTON_STEPS && n; k++) {
+        int still = 1, last = 1;
+        by_bound(h, member, o, M);
+        for (int i = 0; i < n; i++) step[i] = condition_of(body, o, i)[0];
+        if (!solve(M, step, n)) return 0;
+        for (int i = 0; i < n; i++) {
+            const double size = sizes_of(h, member)[bound[i]];
+            still &= fabs(step[i]) < NEXT_DONE * size;
+            last &= fabs(step[i]) < STEP_DONE * size;
         }
+        if (still) break;
+        for (int i = 0; i < n; i++) q[bound[i]] -= step[i];
+        body->flank(h->s, q, o);
+        if (last) break;
     }
     return 1;
 }
@@ -162,13 +195,13 @@ static void carried(const search *h, const double *r, const turned *by, double *
 /* Slopes of the wheel angle by the wheel's free parameters, in natural sizes, at a place with these outputs. */
 static void slopes_at(const search *h, const double *ow, const double *op, const turned *by, place *P)
 {
-    const double *condition = ow + conditions_at(&h->m->bodies[1]) + 1;
     for (int a = 0; a < 2; a++) {
-        const int number = h->free_[1][a], bound = h->bound[1];
-        double tangent[3], along[3];
+        const int number = h->free_[1][a];
+        double tangent[3], along[3], fall[MAX_C];
+        falls(h, 1, ow, number, fall);
         for (int i = 0; i < 3; i++) {
             tangent[i] = ow[6 + 3 * number + i];
-            if (bound >= 0) tangent[i] -= condition[number] / condition[bound] * ow[6 + 3 * bound + i];
+            for (int j = 0; j < h->nw - 2; j++) tangent[i] -= fall[j] * ow[6 + 3 * h->bound[1][j] + i];
         }
         carried(h, tangent, by, along, NULL);
         P->slope[a] = -h->sense * dot(op + 3, along) / P->lever * h->mesh->wheel_sizes[number];
@@ -197,7 +230,7 @@ static void pinion_at(const search *h, const place *P, double *o)
     memcpy(o, P->point, sizeof P->point);
     memcpy(o + 3, P->normal, sizeof P->normal);
     memcpy(o + 6, P->pinion.tangents, 3 * k * sizeof *o);
-    if (body->conditions) memcpy(o + conditions_at(body), P->pinion.condition, (1 + k) * sizeof *o);
+    memcpy(o + conditions_at(body), P->pinion.conditions, (size_t)body->conditions * (1 + k) * sizeof *o);
 }
 
 static void keep_pinion(const search *h, const double *o, place *P)
@@ -208,7 +241,7 @@ static void keep_pinion(const search *h, const double *o, place *P)
     memcpy(P->normal, o + 3, sizeof P->normal);
     memcpy(P->pinion.p, P->p, sizeof P->p);
     memcpy(P->pinion.tangents, o + 6, 3 * k * sizeof *o);
-    if (body->conditions) memcpy(P->pinion.condition, o + conditions_at(body), (1 + k) * sizeof *o);
+    memcpy(P->pinion.conditions, o + conditions_at(body), (size_t)body->conditions * (1 + k) * sizeof *o);
 }
 
 /* Where the given member's point, at P->q or P->p, meets the other one's flank, from the other parameters and P->delta on;
@@ -216,7 +249,7 @@ static void keep_pinion(const search *h, const double *o, place *P)
 static int meet(const search *h, place *P)
 {
     const mw_body *pinion = &h->m->bodies[0], *wheel = &h->m->bodies[1];
-    double ow[MAX_OUTPUTS], op[MAX_OUTPUTS], x[3], rate[3], M[16], r[4];
+    double ow[MAX_OUTPUTS], op[MAX_OUTPUTS], x[3], rate[3], M[(1 + MAX_K) * (1 + MAX_K)], r[1 + MAX_K];
     const int sought = !h->given, parameters = sought ? h->nw : h->nk, n = parameters + 1;
     double *unknown = sought ? P->q : P->p, *known = sought ? P->p : P->q;
     const double *size = sizes_of(h, sought);
@@ -243,11 +276,11 @@ static int meet(const search *h, place *P)
             M[i * n + parameters] = -rate[i];
             r[i] = op[i] - x[i] - h->b[i];
         }
-        if (body->conditions) {
-            const double *condition = o + conditions_at(body);
-            for (int j = 0; j < parameters; j++) M[3 * n + j] = condition[1 + j];
-            M[3 * n + parameters] = 0.0;
-            r[3] = condition[0];
+        for (int i = 0; i < body->conditions; i++) {
+            const double *condition = condition_of(body, o, i);
+            for (int j = 0; j < parameters; j++) M[(3 + i) * n + j] = condition[1 + j];
+            M[(3 + i) * n + parameters] = 0.0;
+            r[3 + i] = condition[0];
         }
         if (!solve(M, r, n)) return 0;
         double largest = fabs(r[parameters]);

@@ -51,6 +51,19 @@ static inline const char *mwi_flag(const mw_model *m, int bit)
     return NULL;
 }
 
+/* Names of the flags that are set, each once, both members' margins being named alike; returns how many. */
+static inline int mwi_flags(const mw_model *m, unsigned flags, const char **names)
+{
+    int count = 0;
+    const char *name;
+    for (int bit = 0; (name = mwi_flag(m, bit)) != NULL; bit++) {
+        int known = !(flags >> bit & 1u);
+        for (int k = 0; k < count && !known; k++) known = mwi_same_text(names[k], name);
+        if (!known) names[count++] = name;
+    }
+    return count;
+}
+
 /* Contact geometry at x; o[no] receives the observation. Returns MW_CONVERGED or MW_LINE_CONTACT. */
 static inline int mwi_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c)
 {

@@ -80,7 +80,7 @@ DRIVE_HEADERS = (
 SOURCES = (*dict.fromkeys(unit for part in PARTS for unit in part.units), *DRIVE_HEADERS)
 #: What the live page's module is compiled from beside a drive's own header: relative to runtime/c.
 LIVE_SOURCES = ("exact.h",)
-#: What programs include, and what generated headers repeat.
+#: What programs include; generated headers repeat the parts of the solver.
 SOLVER = (
     "basics", "steps", "linear", "newton", "complete", "contact", "touch", "refine", "start", "arclength", "branch",
     "search", "choice",
@@ -88,6 +88,10 @@ SOLVER = (
 PUBLIC_HEADERS = (
     "meshwright.h", "mw_model.h", "mw_status.h", "mw_enclosures.h", "mw_certify.h",
     *(f"solver/{part}.h" for part in SOLVER),
+)  # fmt: skip
+#: What generated headers repeat beside these.
+REPEATED = (
+    "circular.h", "certify/ball.h", "certify/wide.h", "certify/units.h", "certify/lane.h", "certify/point.h",
 )  # fmt: skip
 
 FLAGS = (
@@ -227,7 +231,7 @@ def core(source, folder, objects, target=None):
     """Compile the core library from ``source`` (runtime/c) into ``folder``, and copy what drives are compiled from."""
     target = target or native()
     folder.mkdir(parents=True, exist_ok=True)
-    for names, place in ((PUBLIC_HEADERS, "include"), ((*SOURCES, *LIVE_SOURCES), "source")):
+    for names, place in (((*PUBLIC_HEADERS, *REPEATED), "include"), ((*SOURCES, *LIVE_SOURCES), "source")):
         for name in names:
             _copy(source / name, folder / place / name)
     command = (*target.command, *target.more)

@@ -1,13 +1,27 @@
-"""Say what a flag, status, event, reason or quantity of the results means, or a key; without WORD, all but the keys."""
+"""Say what a flag, status, event, reason or quantity of the results means, or a key; without WORD, all but the keys.
+
+A name of the JSON, with its unit, is that of the quantity; a word that has no entry is sought in those of the others.
+"""
 
 import difflib
+import re
 
+from meshwright.base.drives import folders
 from meshwright.base.errors import UsageError
 from meshwright.base.files import write_text
 from meshwright.contact import words
 from meshwright.contact.analysis import reasons, status_text, statuses
 from meshwright.contact.results import impossible
 from meshwright.design import description, schema
+
+#: Units with which names of the JSON end.
+_UNIT = re.compile(r"(_mm_per_rad|_per_mm|_mm|_deg|_arcsec|_um|_mpa|_n_per_um|_n)$")
+
+#: A word so like another one is that, misspelt; a less similar one is proposed where there is nothing better.
+MISSPELT, SIMILAR = 0.8, 0.6
+
+#: Entries of others that are shown for a word without one, most.
+MOST = 8
 
 
 def add_arguments(parser):
@@ -17,12 +31,13 @@ def add_arguments(parser):
 
 
 def meanings():
-    """``{"status" | "flag" | "event" | "reason" | "quantity": {word: what it means}}``."""
+    """``{"status" | "flag" | "event" | "reason" | "outcome" | "quantity": {word: what it means}}``."""
     return {
         "status": {word: status_text(word) for word in dict.fromkeys(statuses().values())},
         "flag": {word: _flag(word) for word in words.FLAGS},
         "event": words.EVENTS,
-        "reason": reasons(),
+        "reason": reasons() | words.GAPS,
+        "outcome": words.OUTCOMES,
         "quantity": words.QUANTITIES,
     }
 
@@ -42,25 +57,67 @@ def keys():
 
 
 def run(options):
-    known, word = meanings(), "_".join(" ".join(options.word).split())
+    known, word = meanings(), "_".join(" ".join(options.word).lower().replace("-", " ").split())
     if not word:
         lines = [f"{kind:<8} {name:<21} {text}" for kind, meant in known.items() for name, text in meant.items()]
     else:
-        lines = [f"{kind} {word}: {meant[word]}" for kind, meant in known.items() if word in meant] or _key(word, known)
+        typed = "_".join(" ".join(options.word).split())
+        names = [name for meant in known.values() for name in meant]
+        misspelt = difflib.get_close_matches(word, [*names, *keys()], 1, MISSPELT)
+        lines = _entries(word, known) or _key(typed) or _unknowns(typed)
+        lines = lines or ([] if misspelt else _spoken_of(word, known))
+        if not lines:
+            near = misspelt or _held(word, names) or difflib.get_close_matches(word, [*names, *keys()], 1, SIMILAR)
+            remedy = "`meshwright explain` lists them, `meshwright drives` keys"
+            remedy = f"did you mean {near[0]!r}?" if near else remedy
+            raise UsageError(f"explain {typed}: no such flag, status, event, reason, quantity or key; {remedy}")
     write_text("-", "\n".join(lines) + "\n")
     return 0
 
 
-def _key(word, known):
+def _held(word, names):
+    """The longest name that a word holds, or that begins with it, in a list; an empty one where none is."""
+    held = [name for name in names if f"_{name}_" in f"_{word}_" or name.startswith(f"{_UNIT.sub('', word)}_")]
+    return sorted(held, key=len)[-1:]
+
+
+def _entries(word, known):
+    """What a word of the results means, or a name of the JSON with its unit; one letter s more makes no other word."""
+    bare = _UNIT.sub("", word)
+    for name in dict.fromkeys((word, bare, f"{bare}s", bare.removesuffix("s"))):
+        if lines := [f"{kind} {name}: {meant[name]}" for kind, meant in known.items() if name in meant]:
+            return lines
+    return []
+
+
+def _key(word):
     """What a key, alone or as TABLE.KEY, means."""
-    listed = keys()
     table, _, key = word.rpartition(".")
-    lines = [f"key {key} {text}" for text in listed.get(key, ()) if not table or text.startswith(f"[{table}]")]
-    if not lines:
-        near = difflib.get_close_matches(word, [*(name for meant in known.values() for name in meant), *listed], n=1)
-        remedy = f"did you mean {near[0]!r}?" if near else "`meshwright explain` lists them, `meshwright drives` keys"
-        raise UsageError(f"explain {word}: no such flag, status, event, reason, quantity or key; {remedy}")
-    return lines
+    return [f"key {key} {text}" for text in keys().get(key, ()) if not table or text.startswith(f"[{table}]")]
+
+
+def _unknowns(word):
+    """What an unknown of the equations of contact means, in the drives that are made already."""
+    found = {}
+    made = [name for name in description.drives() if any((folder / f"{name}.json").exists() for folder in folders())]
+    for drive in map(description.described, made):
+        for text in (f"{u['meaning']}, {u['unit']}" for u in drive["unknowns"] if u["name"] == word):
+            found.setdefault(f"unknown {word}: {text}", {})[drive["family"]] = None
+    return [f"{text} ({', '.join(families)})" for text, families in found.items()]
+
+
+def _spoken_of(word, known):
+    """Entries whose names or sentences hold a word that has none of its own."""
+    whole = re.compile(rf"\b{re.escape(word.replace('_', ' '))}s?\b")
+    entries = {(kind, name): text for kind, meant in known.items() for name, text in meant.items()}
+    entries |= {("key", key): text for key, texts in keys().items() for text in texts[:1]}
+    found = [
+        f"{kind} {name}: {text}" for (kind, name), text in entries.items()
+        if whole.search(name.replace("_", " ")) or whole.search(text.lower())
+    ]  # fmt: skip
+    if len(found) > MOST:
+        found = [*found[:MOST], f"and {len(found) - MOST} more"]
+    return found and [f"{word.replace('_', ' ')} has no entry of its own; it is in those of", *found]
 
 
 def _flag(word):

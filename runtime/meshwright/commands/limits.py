@@ -37,7 +37,10 @@ def run(options):
 
 def _page(drive, found, axial):
     lines = [f"{drive.design.description['title']}, {drive.design.tables['name'] or 'design'}"]
+    omitted = found["not_computed"]
     for name, entries in found.items():
+        if name == "not_computed" or name.removesuffix("_exist") in omitted:
+            continue
         if name == "assumed_blank":
             lines += blank_note(entries).splitlines()
         elif name == "blank_left_open":
@@ -49,7 +52,14 @@ def _page(drive, found, axial):
             lines += [f"  {_line(entry)}" for entry in entries]
         elif entries is not None:
             lines.append(f"{name.replace('_', ' ')}: {_cell(entries)}")
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, *_omitted(omitted)]) + "\n"
+
+
+def _omitted(omitted):
+    """What was not computed, a line for each reason."""
+    for why in dict.fromkeys(omitted.values()):
+        names = (name.replace("_", " ") for name, reason in omitted.items() if reason == why)
+        yield f"not computed: {', '.join(names)} ({why})"
 
 
 def _on_flanks(entries):

@@ -19,9 +19,11 @@ from meshwright.base.files import write_text
 from meshwright.commands import options as common
 from meshwright.contact.flags import not_first
 from meshwright.contact.results import TOUCHING, impossible
-from meshwright.design import description, outline
+from meshwright.design import description
 from meshwright.design import design as designs
+from meshwright.design.outline import first_design
 from meshwright.drive import Drive
+from meshwright.flank.pointed import pointed
 from meshwright.limits.results import Request
 from meshwright.limits.undercut import undercut_lines
 
@@ -75,7 +77,8 @@ def run(options):
     if math.isfinite(options.a) and "a" not in family.outline["options"]:
         raise UsageError(f"--a {options.a:g}: the centre distance of this family follows from its teeth; leave it out")
     name = options.name or "-".join([family.name, *words.values(), f"{options.z[0]}-{options.z[1]}"]).lower()
-    first = outline.first_design(family, name, words, given, dict(common.setting(text) for text in options.set))
+    own = dict(common.setting(text) for text in options.set)
+    first = first_design(family, name, words, given, own)
     try:
         designs.check(designs.parsed(first.text, name))
     except DesignError as error:
@@ -87,13 +90,45 @@ def run(options):
         raise UsageError(f"{place}: exists already; name another file with --out, or another --name")
     write_text(place, first.text)
     if place != "-":
-        write_text("-", _next_steps(place, first, _first_look(Drive.from_tables(designs.parsed(first.text, name)))))
+        touch, seen = _contact(drive := _drive(first))
+        blamed = () if touch else _blamed(family, own, lambda kept: first_design(family, name, words, given, kept))
+        write_text("-", _next_steps(place, first, "\n".join([seen, *blamed, *_pointed(drive), *_undercut(drive)])))
     return 0
 
 
-def _first_look(drive):
-    """What the flanks do over the pitch about the middle, and where they are undercut, in a line each."""
-    return "\n".join([_contact(drive), *_undercut(drive)])
+def _drive(first):
+    return Drive.from_tables(designs.parsed(first.text, "the first design"))
+
+
+def _blamed(family, own, design):
+    """A line that names the settings of one's ``own``, each alone or else all together, without which ``design(the
+    others)`` has flanks that touch, and the packaged designs that have the same keys.
+    """
+
+    def touches(without):
+        try:
+            return _contact(_drive(design({place: own[place] for place in own if place not in without})))[0]
+        except (DesignError, UsageError):
+            return False
+
+    blamed = [place for place in own if touches({place})] or ([*own] if touches(own) else [])
+    if not blamed:
+        return
+    values = ", ".join(f"{place} = {own[place]}" for place in blamed)
+    yield f"without {values} the flanks touch: the sizes that go with it are yours to give"
+    if also := [name for name in designs.packaged_names() if _gives(designs.read(name), family, blamed)]:
+        yield f"packaged designs that give it: {', '.join(also)} (`meshwright show DESIGN`)"
+
+
+def _gives(tables, family, places):
+    """Whether a design of the family gives each of these keys a value, not zero."""
+    found = [tables.get(table, {}).get(key) for table, key in map(description.table_and_key, places)]
+    return tables["drive"] == family.name and all(found)
+
+
+def _pointed(drive):
+    """A line for every member whose teeth end in a point."""
+    return [f"careful: {member}: change a size first (`meshwright explain pointed`)" for member in pointed(drive)]
 
 
 def _undercut(drive):
@@ -107,16 +142,16 @@ def _undercut(drive):
 
 
 def _contact(drive):
-    """What the flanks do over the pitch about the middle."""
+    """Whether the flanks touch first over the pitch about the middle, and what they do there."""
     result = drive.tca(drive.about_the_middle(np.linspace(-0.5, 0.5, 5)))
     result = not_first(result, drive.first_contact(result.angles, result))
     for k, (status, flags) in enumerate(zip(result.status, result.flags, strict=True)):
         word = next((flag for flag in flags if impossible(flag)), None if status in TOUCHING else status)
         if word:
             angle = np.degrees(result.angles[k])
-            return f"careful: {word} at {angle:.4g} degrees: change a size first (`meshwright explain {word}`)"
+            return False, f"careful: {word} at {angle:.4g} degrees: change a size first (`meshwright explain {word}`)"
     along = " along a line" if "line_contact" in result.status else ""
-    return f"looked at over one pitch: the flanks touch{along}, and nothing else before them"
+    return True, f"looked at over one pitch: the flanks touch{along}, and nothing else before them"
 
 
 def _family(name):

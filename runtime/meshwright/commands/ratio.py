@@ -1,7 +1,8 @@
 """Contact ratio: where a pair's contact begins and ends and why, teeth in contact, transmission error, backlash.
 
-Exit status 1 if begin or end does not exist, or if bodies cannot make the contact between them; what does not exist is
-null.
+Exit status 1 if begin or end does not exist, or if flanks cannot make the contact between them; what does not exist is
+null. That the other flank leaves no room (negative backlash: the drive jams) or that the contact ratio is below 1 is a
+result: it is said, with exit status 0.
 """
 
 import math
@@ -13,14 +14,17 @@ from meshwright.base.plain import finite_or_none
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.commands.shown import shown
-from meshwright.contact.analysis import status_text
+from meshwright.contact import words
+from meshwright.contact.analysis import reasons, status_text
 from meshwright.contact.friction import mean_efficiency
 from meshwright.contact.results import ARCSEC
+from meshwright.cycle import room
 from meshwright.cycle.backlash import meaning
 from meshwright.cycle.certified import certified_window
 from meshwright.cycle.certified_cycle import certified_cycle
-from meshwright.cycle.ends import why_open
-from meshwright.cycle.transmission import ROUND_OFF, fourier
+from meshwright.cycle.ends import event, why_open, without_contact
+from meshwright.cycle.transmission import ROUND_OFF, changes, fourier
+from meshwright.flank.pointed import Pointed, pointed
 
 #: Tooth orders of the Fourier components that are written; ranges of angles that a line names.
 ORDERS, MOST_RANGES = 8, 3
@@ -48,8 +52,7 @@ def run(options):
         contents = document(drive, found, common.angles_of(options, drive), common.friction_of(options))
         if certify:
             step("proof of the branch")
-            changes = found.transmission_error.transfers if found.transmission_error else ()
-            window = certified_window(drive, found.mesh.window, changes)
+            window = certified_window(drive, found.mesh.window, _changes(found))
             contents["certificate"] = None if window is None else window.plain(drive.design.mirror.sign)
         if options.certify and window is not None:
             step("proof of first contact")
@@ -59,6 +62,11 @@ def run(options):
     else:
         write_text("-", _page(drive, found, contents))
     return 0 if found.mesh.window.complete and not found.impossible else 1
+
+
+def _changes(found):
+    """Where pairs change inside their windows, rad."""
+    return changes(found.mesh, found.transmission_error.transfers) if found.transmission_error else ()
 
 
 def _first_contact(mesh, window):
@@ -86,6 +94,8 @@ def document(drive, found, angles, friction=None):
         "contact_teeth": [_teeth(found.mesh, angle) for angle in angles],
         "transmission_error": _transmission(found),
         "backlash_arcsec": finite_or_none(found.backlash / ARCSEC),
+        "room": [entry._asdict() for entry in room.room(drive, found.backlash)],
+        "pointed_teeth": [member.plain() for member in pointed(drive)],
         "efficiency": _efficiency(mean_efficiency(found.mesh, friction)),
     }
 
@@ -159,6 +169,12 @@ def _page(drive, found, contents):
         lines.append(f"bodies cannot make this contact everywhere from begin to end: {', '.join(found.impossible)}")
     lines += [f"{name:<34} {', '.join(filter(None, values))}" for name, *values in _rows(found, contents)]
     lines += _certified(contents.get("certificate"))
+    if contents["room"]:
+        helps = room.said(room.Room(**entry) for entry in contents["room"])
+        lines.append(f"what gives it room, one at a time: {helps}")
+    lines += [str(Pointed(*member.values())) for member in contents["pointed_teeth"]]
+    if apart := without_contact(found.mesh):
+        lines.append(f"contact ratio below 1: {apart}")
     if contents["transmission_error"]["rides_on_edge"]:
         lines.append("the pair that drives stands at an end of its contact: the drive rides on an edge")
     return "\n".join(lines) + "\n"
@@ -171,7 +187,7 @@ def _certified(certificate):
     if certificate["gaps"]:
         gap = certificate["gaps"][0]
         low, high = gap["pinion_angle_deg"]
-        yield f"not certified: from {low:.6f}° to {high:.6f}° no single branch is shown ({gap['reason']})"
+        yield f"not certified: from {low:.6f}° to {high:.6f}° no single branch is shown: {_why(gap['reason'])}"
         return
     yield f"certified: one branch of contact, {certificate['pieces']} pieces without a gap"
     if certificate["contact_ratio"]:
@@ -182,6 +198,10 @@ def _certified(certificate):
     for low, high in certificate["transfer_angles_deg"] or ():
         yield f"certified: pairs change at an angle from {low:.9f}° to {high:.9f}°"
     yield from _first(certificate.get("first_contact"))
+
+
+def _why(reason):
+    return {**reasons(), **words.GAPS}.get(reason, reason)
 
 
 def _first(found):
@@ -234,7 +254,6 @@ def _pair(later):
 def _rows(found, contents):
     """Name, value and remark of each line."""
     error, average = contents["transmission_error"], contents["average_contact_teeth"]
-    transfers = error["transfer_angles_deg"] or [None]
     return [
         ("contact begins at", *_at(contents["begin"])),
         ("contact ends at", *_at(contents["end"])),
@@ -246,7 +265,7 @@ def _rows(found, contents):
          f"{error['envelope'] or 'no'} envelope"),
         ("  of the drive, edges included", _arcsec(error["envelope_with_edges_peak_to_peak_arcsec"])),
         ("  of the other envelope", _arcsec(error["other_envelope_peak_to_peak_arcsec"], "peak to peak")),
-        ("pairs change at", ", ".join(shown(a, "deg") for a in transfers)),
+        ("pairs change at", *_change(found)),
         ("vertex at", shown(error["vertex_deg"], "deg")),
         ("backlash", _arcsec(contents["backlash_arcsec"], "of the wheel"), _backlash(found)),
         *_efficiency_rows(contents["efficiency"]),
@@ -264,12 +283,23 @@ def _efficiency_rows(found):
     return rows
 
 
-def _at(event):
-    return shown(event["pinion_angle_deg"], "deg"), " of the ".join(filter(None, (event["event"], event["member"])))
+def _at(found):
+    return shown(found["pinion_angle_deg"], "deg"), event(found["event"], found["member"])
 
 
 def _arcsec(value, of=""):
     return shown(value, f"arcsec {of}".strip(), ROUND_OFF / ARCSEC)
+
+
+def _change(found):
+    """Where the next pair takes over, and why not where the errors of both are equal."""
+    inside = _changes(found)
+    beyond = found.transmission_error.transfers if found.transmission_error and not inside else ()
+    return _angles(inside), f"their curves cross outside of contact: {_angles(beyond)}" if beyond else ""
+
+
+def _angles(angles):
+    return ", ".join(shown(math.degrees(angle), "deg") for angle in angles) or shown(None)
 
 
 def _constant(found):

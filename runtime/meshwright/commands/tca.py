@@ -141,9 +141,9 @@ def _add_other_contacts(points, drive, result):
 def _line(drive, result, angle):
     from meshwright.contact.contact_line import contact_line
 
-    mirror = drive.design.mirror.sign
+    mirror = drive.design.mirror
     start = result.solutions[int(np.argmin(np.abs(result.angles - angle)))]
-    return (contact_line(drive, mirror * angle, start).points * [1.0, mirror, 1.0]).tolist()
+    return (contact_line(drive, mirror.sign * angle, start).points * mirror.flip).tolist()
 
 
 def _radii(patch):

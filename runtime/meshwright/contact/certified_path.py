@@ -18,6 +18,10 @@ from meshwright.contact.results import ARCSEC
 #: Pieces shorter than this share of the range are not tried: there the branch is singular or ends.
 SHORTEST = 2.0**-14
 
+#: The same of pieces in which the formula of a flank changes, or that follow such a one: about a kink of the path no
+#: polynomial is nearer than what the contact moves there.
+SHORTEST_AT_KINKS = 2.0**-32
+
 #: Widest half-width of the tube of transmission error about its polynomial, rad: 5e-8 arcseconds.
 TUBE = 5e-8 * ARCSEC
 
@@ -39,8 +43,8 @@ class CertifiedPath:
     """A branch of contact from ``begin`` to ``end``, rad, of the right-hand drive.
 
     At every angle that no gap holds, the equations have a solution within the radius of a piece's polynomials and no
-    other within its box; at each joint both pieces hold the same one. So where there is no gap it is one smooth branch,
-    without turning point or crossing.
+    other within its box; at each joint both pieces hold the same one. So where there is no gap it is one branch,
+    without turning point or crossing, smooth but where the formula of a flank changes.
     """
 
     drive: DriveModel
@@ -88,10 +92,9 @@ class CertifiedPath:
         ball = library().mw_piece_at(piece, ffi.addressof(piece.x[self.drive.design.description["error"]]), angle)
         return math.nextafter(ball.mid - ball.radius, -math.inf), math.nextafter(ball.mid + ball.radius, math.inf)
 
-    @property
-    def _depth(self):
-        """Halvings of each piece, by which the whole path is halved DEPTH times."""
-        return max(LEAST_DEPTH, DEPTH - int(math.log2(max(1, len(self.pieces)))))
+    def _depth(self, low, high):
+        """Halvings of a piece between two angles, by which the whole path is halved DEPTH times."""
+        return max(LEAST_DEPTH, DEPTH - int(math.log2((self.end - self.begin) / (high - low))))
 
     def _range(self, piece, polynomial, low, high, depth):
         bounds = np.empty(2)
@@ -103,7 +106,7 @@ class CertifiedPath:
         """Bounds between which the transmission error stays along the whole path, rad."""
         index = self.drive.design.description["error"]
         ranges = [
-            self._range(piece, piece.x[index], *ends, self._depth)
+            self._range(piece, piece.x[index], *ends, self._depth(*ends))
             for piece, ends in zip(self.pieces, self.ends, strict=True)
         ]
         return min(r[0] for r in ranges), max(r[1] for r in ranges)
@@ -115,7 +118,7 @@ class CertifiedPath:
         found = [
             self._error(piece, angle)
             for piece, ends in zip(self.pieces, self.ends, strict=True)
-            for angle in np.linspace(*ends, 2**self._depth + 1).tolist()
+            for angle in np.linspace(*ends, 2 ** self._depth(*ends) + 1).tolist()
         ]
         least = max(f[0] for f in found) - min(f[1] for f in found)
         return max(0.0, math.nextafter(least, -math.inf)), math.nextafter(high - low, math.inf)
@@ -188,8 +191,7 @@ def certified_path(drive, begin, end, tube=TUBE, longest=math.inf):
     nodes = np.empty(9)
     library().mw_piece_nodes(pointer(nodes))
     pieces, ends, gaps = [], [], []
-    angle, step, shortest = begin, min(longest, end - begin), (end - begin) * SHORTEST
-    least = shortest
+    angle, step, least = begin, min(longest, end - begin), 0.0
     while angle < end:
         to = min(end, angle + step)
         piece, reason = _piece(drive, nodes, angle, to, tube)
@@ -199,14 +201,19 @@ def certified_path(drive, begin, end, tube=TUBE, longest=math.inf):
         if not reason:
             pieces.append(piece)
             ends.append((angle, to))
-            angle, step, least = to, min(longest, 2.0 * (to - angle)), shortest
-        elif to - angle > least:
+            angle, step, least = to, min(longest, 2.0 * (to - angle)), 0.0
+        elif to - angle > max(least, (end - begin) * _shortest(piece, pieces)):
             step = 0.5 * (to - angle)
         else:
             _extend(gaps, angle, to, reason)
             least = 2.0 * (to - angle)  # a long gap is not searched through in short steps
             angle, step = to, min(longest, least)
     return CertifiedPath(drive, begin, end, tuple(pieces), tuple(ends), tuple(gaps))
+
+
+def _shortest(piece, before):
+    """Below which share of the range a piece after those ``before`` is not halved."""
+    return SHORTEST_AT_KINKS if piece.kinks or (before and before[-1].kinks) else SHORTEST
 
 
 def refuse_empty(begin, end):

@@ -27,25 +27,131 @@ EVENTS = {
     "none": "nothing that the design gives limits the contact",
 }
 
+#: Why a proof over a range of angles has a gap, beside the reasons of single proofs.
+GAPS = {
+    "tube": "the transmission error cannot be enclosed as narrowly as the bounds of a window need",
+    "joint": "two pieces of the branch cannot be shown to be one where they meet",
+}
+
+#: Outcomes of proofs.
+OUTCOMES = {
+    "unique": "proved: the contact exists and is the only one nearby",
+    "first": "proved: nothing else of the flanks touches before it",
+    "unknown": "neither is proved, for the reason that stands beside it: this says nothing against the contact",
+}
+
 #: Quantities of results, as `meshwright explain` says them; rigid, unloaded teeth unless they say otherwise.
 QUANTITIES = {
-    "contact_ratio": "over how many pitches one pair touches, from begin to end of its contact. Teeth that touch in a "
-    "point follow the path of that point: of helical teeth less than the total contact ratio of ISO 21771, which "
-    "counts contact lines",
-    "teeth_in_contact": "how many pairs are inside their contact at once, averaged; an elastic allowance adds those "
-    "that stand no further apart",
+    "gear_ratio": "turns of the pinion to one of the wheel: teeth of the wheel over those of the pinion",
+    "pitch": "pinion angle from one pair of teeth to the next",
+    "pair": "a tooth of the pinion and the one of the wheel that it meets; the next pair stands a pitch later",
+    "pinion_angle": "turn of the pinion, which is given; at 0 the design's tooth pair stands at its reference",
+    "wheel_angle": "turn of the wheel at which the flanks touch",
     "transmission_error": "wheel angle less pinion angle over gear ratio; relative: less its value at the reference "
     "angle",
-    "envelope": "the error of the drive: at every angle that of the pair which leads, the others stand apart",
-    "transfer_angle": "where the errors of two pairs are equal and the next pair takes over",
+    "relative": "of a transmission error: less its value at the reference angle. Of curvatures: of one flank against "
+    "the other, negative where they overlap beside the point",
+    "peak_to_peak": "largest less smallest value over the contact of a pair, or over one pitch of the drive",
+    "constant_to_round_off": "so even that only the rounding of numbers is left of it",
+    "contact_ratio": "over how many pitches one pair touches, from begin to end of its contact. Teeth that touch in a "
+    "point follow the path of that point: of helical teeth less than the total contact ratio of ISO 21771, which "
+    "counts contact lines. Below 1 a pair has left contact before the next one begins",
+    "teeth_in_contact": "how many pairs are inside their contact at once, averaged; an elastic allowance adds those "
+    "that stand no further apart",
+    "elastic_allowance": "separation below which a pair counts as touching, of the design",
+    "separation": "how far flanks stand apart along the normal; the design's is that at which ellipses are drawn",
+    "envelope": "the error of the drive: at every angle that of the pair which leads, the others stand apart. Upper or "
+    "lower: the largest or the smallest error leads",
+    "other_envelope": "the error if the pair that lags led, which rigid teeth do not transmit: the kinematic error of "
+    "some papers",
+    "edges_included": "what rigid teeth transmit with the edges that touch where no flanks do",
+    "with_edges": "see edges_included",
+    "transfer_angle": "where the errors of two pairs are equal and the next pair takes over; outside of their contact "
+    "it does not, and pairs change where one ends",
+    "pairs_change": "where the next pair takes over: see transfer_angle",
+    "rides_on_edge": "the pair that leads stands at an end of its contact, so that an edge carries when pairs change",
     "vertex": "where the error of a pair is stationary",
-    "backlash": "how far the wheel turns between contact on this flank and on the other, pinion held",
+    "tooth_order": "see orders",
+    "amplitude": "half the swing of one of the orders",
+    "orders": "Fourier components of the transmitted error, by multiples of the frequency of the teeth",
+    "backlash": "how far the wheel turns between contact on this flank and on the other, pinion held; negative: the "
+    "teeth are thicker than the spaces, and the drive jams",
+    "jams": "the backlash is negative: the teeth are thicker than the spaces",
+    "room": "which lengths, one at a time, changed by how much, end the overlap of a drive that jams",
+    "friction": "coefficient of friction between the flanks, as it was given",
+    "efficiency": "power that leaves over power that enters with the friction given, with either member driving",
     "self_locking_friction": "coefficient of friction from which the wheel cannot drive the pinion: where it is least "
     "along the path, and from which it cannot anywhere",
+    "begin": "where the contact of a pair begins as the driving pinion turns; an event says what limits it there",
+    "end": "where the contact of a pair ends as the driving pinion turns; an event says what limits it there",
+    "event": "what limits contact; `meshwright explain` lists the words",
+    "member": "pinion or wheel: which of the two a limit or number is of",
+    "impossible": "flags of points, between begin and end, that satisfy the equations but that bodies cannot make",
+    "status": "how the search for a contact ended; `meshwright explain` lists the words",
+    "flags": "what is particular about a contact point; `meshwright explain` lists the words",
+    "residual": "what the equations of contact leave at the solution",
+    "message": "the status in a sentence",
+    "schema": "name and version of what a JSON document holds; keys are never renamed, new ones may be added",
+    "iterations": "Newton steps to the solution",
+    "contact_point": "where the flanks touch, in the fixed frame or that of the member named",
+    "contact_normal": "unit normal at the contact, out of the pinion, fixed frame",
+    "major_direction": "direction in which the contact ellipse is longest, fixed frame",
+    "curvature": "principal curvatures of one flank against the other; the direction of the smaller one is the long "
+    "axis of the ellipse",
     "ellipse": "where the unloaded flanks stand no further apart than the separation of the design: semi-axes "
     "sqrt(2 separation / relative curvature)",
+    "semi_major": "half the length of the contact ellipse",
+    "semi_minor": "half the width of the contact ellipse",
+    "semi_axes": "half the length and half the width of the contact ellipse",
+    "lever_arms": "how far a member moves along the contact normal for each radian of its turn",
+    "instantaneous_ratio": "speed of the wheel over that of the pinion at this angle",
+    "sliding_velocity": "velocity of one flank along the other at the contact, for one radian of the pinion a second",
+    "entraining_velocity": "mean velocity of the contact over both flanks, which draws in the lubricant",
+    "specific_sliding": "sliding over the velocity of the contact on the flank of the member named",
+    "crowning": "a flank that stands back towards its ends or edges, so that contact is a point inside it: keys of "
+    "designs, `meshwright drives` lists them",
     "ease_off": "how far a flank stands back from the surface that its mate would envelop at a constant ratio",
     "first_contact": "where the bounded flanks, edges included, meet first as the wheel turns towards the pinion",
+    "overlap": "how deep an edge would stand in the other flank at the tangency, had it not touched before",
+    "kind": "of a first contact: tangency, edge or corner; of a branch point: fold, crossing or pitchfork",
+    "turned_back": "how far the wheel is turned back from contact while nothing is shown to touch on the way",
+    "ended_by_limits": "whether the part of a flank that was looked at ends at the limits of the design",
+    "unresolved": "overlap that the search for first contact could have missed",
+    "certified": "proved with bounds of every rounding, not only computed: a contact, its only one nearby, and how far "
+    "its numbers can be off",
+    "pieces": "arcs of the branch of contact, each proved, that cover the window of contact",
+    "spans": "ranges of angles of one pair over which one thing is proved, or not, of first contact",
+    "neighbours": "what is proved of the pairs before and after",
+    "gaps": "ranges of angles over which the proof does not hold",
+    "branch_points": "where the branch of contact turns back (fold) or another one crosses it (crossing, pitchfork)",
+    "pitchfork": "a branch point at which a branch turns back just where it meets another one",
+    "crossing": "a branch point at which two branches of contact meet",
+    "first_type": "limit points of the first type: the contact of cutting at which the wheel begins to be undercut",
+    "second_type": "limit points of the second type: where the two contacts of cutting that a point of the tool has in "
+    "a turn fall together; points beyond never touch",
+    "inclination": "angle of an axis of meshing to the axis of the tool",
+    "meshing_axes": "lines that the normals at all contacts of a helicoid and what it cuts meet",
+    "section_profile": "contact of cutting in one plane, as rack and pinion",
+    "tip_thickness": "thickness of a tooth at the tip; below zero its flanks meet before: it is pointed",
+    "pointed_teeth": "members both flanks of whose teeth meet below the tip that the design gives, and at which radius",
+    "pointed": "the two flanks of a tooth meet in an edge below the tip that the design gives",
+    "least_teeth_without_undercut": "the least number of teeth of a member whose flank the tool does not cut away",
+    "on_flank": "whether a place lies within every limit of the flank",
+    "parameters": "coordinates of a place on a surface; `meshwright explain` knows those of contacts by their names",
+    "edge_position": "place on the straight edge of the tool that cuts there",
+    "tool_radius": "radius on the tool that cuts there",
+    "clearance": "height of a tool above finished teeth that it passes; below zero it cuts into them",
+    "assumed_blank": "standard proportions that stand for the sizes of the blank which the design leaves open",
+    "not_computed": "limits that this drive does not offer, or that the command was not asked for, with the reason",
+    "loaded_transmission_error": "transmission error of elastic teeth under the torque given",
+    "load_share": "part of the force that one pair carries",
+    "mesh_stiffness": "force along the normals over the approach of the flanks, at the torque given",
+    "peak_pressure": "largest contact pressure of a pair",
+    "misalignment": "errors of the assembly, keys of [misalignment]; the contact is solved with them as they are",
+    "sensitivity": "how much a result changes for a unit of a key, by exact derivatives",
+    "drawing_data": "what the drawings of the members and of their assembly state of the nominal design",
+    "limits_of_validity": "what the numbers of a report leave out",
+    "contact_pattern": "what a marking compound shows: where the flanks come nearer than its thickness over the mesh",
 }
 
 

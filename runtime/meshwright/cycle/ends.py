@@ -44,6 +44,17 @@ def why_open(mesh):
     return _unlimited(mesh)
 
 
+def without_contact(mesh):
+    """What a contact ratio below 1 means: over how much of a pitch no flanks touch; "" with others."""
+    if not mesh.gap > 0.0:
+        return ""
+    gap, pitch = (math.degrees(angle) for angle in (mesh.gap, mesh.drive.pitch()))
+    return (
+        f"without load a pair leaves contact before the next one begins; over {gap:.4g}° of every {pitch:.4g}° of the "
+        "pinion no flanks touch, only an edge can"
+    )
+
+
 def _untouched(status):
     return f"{status_text(status)}; change [blank] or [misalignment], or see `meshwright tca`"
 

@@ -208,7 +208,6 @@ class SearchedFlank:
         names = np.array(whole.limits.names)
         open_ = np.zeros(len(triangles.points), dtype=np.uint8)
         open_[triangles.border[names[triangles.limit] == OPEN].ravel()] = 1
-        bound = [i for i in range(len(whole.flank.parameters)) if i not in whole.chart.free]
         _, sizes = uses.on(drive.flank(pinion))
         kept = (
             np.ascontiguousarray(triangles.parameters), np.ascontiguousarray(triangles.triangles, dtype=np.int32),
@@ -221,7 +220,7 @@ class SearchedFlank:
         views = tuple(ffi.from_buffer(kind, array) for kind, array in zip(kinds, kept, strict=True))
         for name, view in zip(names, views, strict=True):
             setattr(table, name, view)
-        table.bound = bound[0] if bound else -1
+        table.span = whole.chart.free
         return cls(table, (kept, views))
 
 

@@ -81,6 +81,14 @@ class Mesh:
         """Pitches from begin to end; NaN if an end does not exist."""
         return self.window.span / self.drive.pitch()
 
+    @property
+    def gap(self):
+        """Pinion angle of every pitch over which no pair is inside its window, rad; 0 from a contact ratio of 1 on, NaN
+        if an end does not exist.
+        """
+        gap = self.drive.pitch() - self.window.span
+        return gap if math.isnan(gap) else max(gap, 0.0)
+
     def errors(self, angles):
         """Transmission error of pair 0, rad, at pinion angles (M,); NaN where its path does not reach."""
         return self.mirror * self.window.path.errors(self.mirror * np.atleast_1d(angles))

@@ -85,6 +85,17 @@ def transmission_error(mesh):
     )
 
 
+def changes(mesh, transfers):
+    """Those ``transfers`` at which a pair takes over and hands over, both inside its window; empty if it cannot.
+
+    Beyond the window the curves cross, but no flanks touch: pairs then change where one ends.
+    """
+    if not mesh.window.complete:
+        return transfers
+    low, high = sorted((mesh.window.begin.angle, mesh.window.end.angle))
+    return transfers if all(low <= angle <= high for angle in transfers) else ()
+
+
 def rides_on_edge(mesh):
     """Whether the pair that leads stands at an end of its window; False if an end does not exist."""
     if not mesh.window.complete:

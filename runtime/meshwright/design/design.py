@@ -275,7 +275,8 @@ def check(tables, places=None):
     state = np.empty(c.ns)
     failed = c.setup(p, pointer(state))
     if failed:
-        raise _guard_error(description["guards"][failed - 1], checked, _by_place(description, parameters))
+        told = [*description["guards"], *description["missing"]]
+        raise _guard_error(told[failed - 1], checked, _by_place(description, parameters))
     parameters.flags.writeable = False
     return Design(checked, description, parameters, _sizes(c, parameters), _mirrored(description, checked), places)
 

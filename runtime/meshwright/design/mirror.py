@@ -27,6 +27,11 @@ class Mirror:
         """Factors (3,) of the coordinates of a point or direction, in any frame."""
         return np.array([1.0, self.sign, 1.0])
 
+    def placements(self, matrices):
+        """Placements (…, 4, 4) of bodies of the mirror image, from those of the bodies, or the other way."""
+        flip = np.append(self.flip, 1.0)
+        return flip[:, None] * matrices * flip
+
     def factor(self, name):
         """Factor of a quantity by its name."""
         return self.sign if name in self.negated else 1.0

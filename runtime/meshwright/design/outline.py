@@ -82,7 +82,7 @@ def beside_proportions(family, given):
         if own is not None and len(names) == 1 and isinstance(names[0], str) and names[0] in ("m", "z_1", "z_2", "a"):
             symbols.setdefault(names[0], own)
     if not {"m", "z_1", "z_2"} <= symbols.keys():
-        return []
+        return _beyond(family, given)
     symbols.setdefault("a", math.nan)
     found = []
     for suggestion in outline["suggestions"]:
@@ -98,7 +98,20 @@ def beside_proportions(family, given):
             if off > (0.0 if suggestion["whole"] else ASTRAY):
                 found.append((off, f"{suggestion['place']} = {own:g}: {number:.5g} by the proportions of this family"))
         symbols[suggestion["name"]] = own if isinstance(own, int | float) else number
-    return [sentence for _, sentence in sorted(found, key=lambda entry: -entry[0])]
+    return [sentence for _, sentence in sorted(found, key=lambda entry: -entry[0])] + _beyond(family, given)
+
+
+def _beyond(family, given):
+    """Sizes that the proportions leave at their defaults and the design does not, a sentence each."""
+    suggested = {suggestion["place"] for suggestion in family.outline["suggestions"]} if family.outline else set()
+    tables = {place.partition(".")[0] for place in suggested if place}
+    places = {f"{p['table']}.{p['key']}": p["default"] for p in family.parameters if p["table"] in tables}
+    return [
+        f"{place} = {given[place]:g}: {default:g} by the proportions of this family, whose other sizes do not follow it"
+        for place, default in places.items()
+        if place not in suggested and isinstance(default, int | float) and isinstance(given.get(place), int | float)
+        and not math.isclose(given[place], default, abs_tol=1e-12)
+    ]  # fmt: skip
 
 
 def _unsound(suggestion, number, symbols):

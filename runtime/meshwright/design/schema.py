@@ -19,6 +19,9 @@ HANDS = ("right", "left")
 #: or measured reaches them, and beyond them double precision no longer resolves a contact.
 LARGEST = {"mm": 1e9, "um": 1e6, "deg": 360.0, "": 1e5}
 
+#: Keys of a table that an error about another one names, most.
+FEW = 12
+
 #: Longest name of a design, and what it must not hold.
 LONGEST_NAME = 200
 CONTROLS = r"\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069"
@@ -254,7 +257,11 @@ def _refuse_unknown(entries: dict, known: dict, before: str, whole: Form) -> Non
 
             near = [f"{table}.{name}" for table, keys in whole.tables.items() if name in keys]
             near = near or difflib.get_close_matches(str(name), known, n=1)
-            remedy = f"did you mean {near[0]!r}?" if near else "remove it; `meshwright drives` lists the keys"
+            remedy = f"did you mean {near[0]!r}?" if near else "remove it;"
+            if len(known) <= FEW:
+                remedy += f" {f'[{before[:-1]}]' if before else 'a design'} has {', '.join(known)}"
+            elif not near:
+                remedy += " `meshwright drives` lists the keys"
             raise DesignError(f"{before}{name}", value, "unknown key", remedy)
 
 

@@ -17,6 +17,8 @@ Bools = NDArray[np.bool_]
 
 # A flank with an edge near the grid may leave some of the normals unmet.
 _PIERCED = 1e-9
+# So far beyond an edge, in parts of the flank, a place lies on it: what a corner of a mesh there is off by rounding.
+_ON_EDGE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -163,11 +165,11 @@ class _Flank:
         low, high = self.form.faces
         held = np.clip(section, low, high)
         first, last = curves.first(held), curves.last(held)
-        fraction = (profile - first) / (last - first)
+        fraction, across = (profile - first) / (last - first), (section - low) / (high - low)
         beyond = {
-            "fillet": pierced & (fraction < 0.0),
-            "tip": pierced & (fraction > 1.0),
-            "end of the portion" if self.form.cut_ends else "face": pierced & ((section < low) | (section > high)),
+            "fillet": pierced & (fraction < -_ON_EDGE),
+            "tip": pierced & (fraction > 1.0 + _ON_EDGE),
+            "end of the portion" if self.form.cut_ends else "face": pierced & (np.abs(across - 0.5) > 0.5 + _ON_EDGE),
         }
         excess = np.zeros(len(points))
         if self.deviations is not None:

@@ -203,14 +203,13 @@ class _Cut:
         q = np.mean([self.vertices[e] for e in ends], axis=0)
         at = q[list(region.chart.free)]
         for _ in range(NEWTON_STEPS):
-            trial = at + size * np.array([[0.0, 0.0], [1e-5, 0.0], [-1e-5, 0.0], [0.0, 1e-5], [0.0, -1e-5]])
-            found = region.flank(region.chart.complete(trial, np.tile(q, (5, 1))))
-            values = region.limits.values(found)[:, pair]
-            with np.errstate(invalid="ignore"):  # a limit may be open here
-                slopes = np.stack([(values[1] - values[2]) / 2e-5, (values[3] - values[4]) / 2e-5], axis=1)
+            found = region.flank(region.chart.complete(at[None], q[None]))
+            values = region.limits.values(found)[0, pair]
+            by_parameters = region.limits.slopes(found)[:, pair]
+            slopes = region.chart.by_coordinates(found, by_parameters)[0] * size
             if not np.isfinite(slopes).all() or abs(np.linalg.det(slopes)) < 1e-300:
                 return None
-            step = np.linalg.solve(slopes, values[0])
+            step = np.linalg.solve(slopes, values)
             at = at - size * step * min(1.0, 0.5 / max(np.abs(step).max(), 1e-300))
             q = region.chart.complete(at[None], q[None])[0]
             if np.abs(step).max() < 1e-13:

@@ -104,7 +104,7 @@ def step(drive, region, shape):
     if region.empty:
         raise UsageError(f"{region.why_empty}; change [blank] or [design]")
     name = f"{drive.design.tables['name'] or drive.design.family} {region.flank.body['name']} {region.flank.region}"
-    flip = np.array([1.0, -1.0, 1.0]) if drive.design.mirrored else np.ones(3)
+    flip = drive.design.mirror.flip
     try:
         made = _trimmed(region, shape, flip, name)
     except (UsageError, ValueError, np.linalg.LinAlgError):

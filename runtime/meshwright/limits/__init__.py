@@ -8,9 +8,11 @@ from dataclasses import replace
 
 from meshwright.base.errors import DesignError, UsageError
 from meshwright.contact import functions
+from meshwright.flank.pointed import pointed
 from meshwright.limits import clearance, contacts, rack
 from meshwright.limits.branches import branch_points
 from meshwright.limits.least_teeth import least_teeth
+from meshwright.limits.omitted import omitted
 from meshwright.limits.results import Limits, Request
 from meshwright.limits.thickness import tip_thicknesses
 from meshwright.limits.undercut import undercut_lines
@@ -33,7 +35,7 @@ def limits_of(drive, request=None, step=lambda text: None):
     request = Request() if request is None else request
     if not isinstance(request, Request):
         raise UsageError(f"request = {request!r}: says nothing of limits; give a meshwright.limits.Request")
-    drive, assumed, left_open = _bounded(drive)
+    given, (drive, assumed, left_open) = drive, _bounded(drive)
     step("limits of contact")
     generated = rack.generation_limits(drive, request) if functions.has(drive, "generation") else rack.none(request)
     searched = drive.design.description["least_teeth"]
@@ -50,8 +52,10 @@ def limits_of(drive, request=None, step=lambda text: None):
         assumed_blank=assumed,
         blank_left_open=left_open,
         tip_thickness=thickness,
+        pointed_teeth=pointed(given),
         least_teeth={member: least_teeth(drive, member) for member in searched} or None,
         tool_clearance=clearance.judged(drive) if drive.design.description["tool_clearance"] else None,
+        omitted=omitted(drive, request, thickness),
         **generated,
     )
     mirror = drive.design.mirror

@@ -13,10 +13,9 @@ PITCHES = 2.5
 
 def branch_points(drive):
     """Folds and crossings of the branch through the contact nearest to angle 0, within its regular sheet."""
-    start = _start(drive)
-    if start is None:
+    if (found := start(drive)) is None:
         return ()
-    angle, unknowns = start
+    angle, unknowns = found
     found = []
     for step in (STEP, -STEP):
         branch = _regular_part(drive, follow(drive, angle, unknowns, step), angle)
@@ -24,7 +23,7 @@ def branch_points(drive):
     return tuple(sorted((point for point in found if point), key=lambda point: point.angle))
 
 
-def _start(drive):
+def start(drive):
     """Angle and unknowns of a contact near angle 0; None if there is none, or the contact is a line."""
     pitch = drive.pitch()
     for angle in np.array([0.0, 0.25, -0.25, 0.5, -0.5]) * pitch:

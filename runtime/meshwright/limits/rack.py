@@ -60,7 +60,8 @@ def sizes(drive):
     return {name: float(value) for name, value in drive.function("rack_sizes")().items()}
 
 
-def _is_right_angle(drive):
+def is_right_angle(drive):
+    """Whether tool and blank stand at right angles in cutting."""
     return abs(sizes(drive)["cutting_angle"] - np.pi / 2) < 1e-9
 
 
@@ -68,7 +69,7 @@ def need_right_angle(drive):
     """Raise :class:`~meshwright.base.errors.UsageError` unless tool and blank stand at right angles in cutting."""
     if not functions.has(drive, "generation"):
         raise UsageError("section y: no member of this drive is generated as rack and pinion; leave the section out")
-    if not _is_right_angle(drive):
+    if not is_right_angle(drive):
         angle = np.degrees(sizes(drive)["cutting_angle"])
         raise UsageError(
             f"section y: the cutting shaft angle is {angle:g}°; sections are planar pairs only at 90°:"
@@ -89,7 +90,7 @@ def _need_radii(tool, radii):
 
 def _right_angle(drive, tool, request):
     """Limit points and sections, which have closed forms at right angles only."""
-    if not _is_right_angle(drive):
+    if not is_right_angle(drive):
         return {}
     return {
         "first_type": _first_type(drive, tool, request.section_y or 0.0),

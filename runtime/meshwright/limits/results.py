@@ -4,6 +4,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from meshwright.flank.pointed import Pointed
 from meshwright.limits.clearance import Judgement
 
 
@@ -175,7 +176,8 @@ class Limits:
     ``tool_clearance`` is the :class:`~meshwright.limits.clearance.Judgement` of a drive whose tool must clear its
     teeth; in plain data it goes by the tool's name. ``assumed_blank``: the standard proportions that stand for sizes
     of the blank which the design leaves open, by their keys and in the units of these; ``blank_left_open``: why these
-    proportions do not fit the design, whose open blank then bounds nothing, or "".
+    proportions do not fit the design, whose open blank then bounds nothing, or "". ``omitted``: why a limit was not
+    computed, by its name in plain data.
     """
 
     undercut: tuple[SurfaceLimit, ...] = ()
@@ -187,10 +189,12 @@ class Limits:
     section_profile: tuple[ContactPoint, ...] = ()
     branch_points: tuple[BranchPoint, ...] = ()
     tip_thickness: tuple[Thickness, ...] = ()
+    pointed_teeth: tuple[Pointed, ...] = ()
     least_teeth: dict[str, int] | None = None
     tool_clearance: Judgement | None = None
     assumed_blank: dict[str, float] = field(default_factory=dict)
     blank_left_open: str = ""
+    omitted: dict[str, str] = field(default_factory=dict)
 
     def plain(self):
         """The lists of the ``meshwright.limits/1`` schema."""
@@ -205,7 +209,9 @@ class Limits:
             "section_profile": [c.as_profile() for c in self.section_profile],
             "branch_points": [b.plain() for b in self.branch_points],
             "tip_thickness": [t.plain() for t in self.tip_thickness],
+            "pointed_teeth": [p.plain() for p in self.pointed_teeth],
             "least_teeth_without_undercut": self.least_teeth,
             "assumed_blank": self.assumed_blank,
             "blank_left_open": self.blank_left_open or None,
+            "not_computed": self.omitted,
         } | judged

@@ -26,6 +26,6 @@ def section(drive, member, offset, count):
         raise UsageError(f"--section {offset:g}: the plane misses the profile; use a value nearer to 0")
     flank = drive.flank(member)
     at = flank(np.column_stack([t, turn]))
-    flip = np.array([1.0, mirror, 1.0])
+    flip = drive.design.mirror.flip
     values = np.column_stack([t, mirror * turn])
     return Grid(member, "flank", flank.parameters, (len(t), 1), values, at.points * flip, at.normals * flip)

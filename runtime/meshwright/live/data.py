@@ -53,7 +53,7 @@ def data(drive):
         "from_reference": _from_reference(drive),
         "positions": POSITIONS,
         "round_off": ROUND_OFF,
-        "guards": description["guards"],
+        "guards": [*description["guards"], *description["missing"]],
         "systems": [{"message": s["message"], "keys": s["keys"]} for s in description["systems"]],
         "status": _status(),
         "flags": [{"name": name, "words": words.flag(name), "impossible": impossible(name)}

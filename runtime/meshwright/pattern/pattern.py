@@ -113,12 +113,12 @@ def _contours(drive, found, rows, count, separation, spacing):
     solved = [k for k in rows if found.solved[k]]
     if not solved:
         return (None,) * len(rows)
-    mirror = drive.design.mirror.sign
-    flip, of = np.array([1.0, mirror, 1.0]), np.repeat(solved, count)
+    mirror = drive.design.mirror
+    flip, of = mirror.flip, np.repeat(solved, count)
     directions = np.concatenate([spacing(count, *found.curvatures[k]) for k in solved])
     contact = (flip * a[of] for a in (found.points, found.normals, found.major))
-    gap = Gap.at(drive, mirror * found.angles[of], found.solutions[of], *contact)
-    rays = _Rays.of(gap, found.curvatures[of], mirror * directions, separation)
+    gap = Gap.at(drive, mirror.sign * found.angles[of], found.solutions[of], *contact)
+    rays = _Rays.of(gap, found.curvatures[of], mirror.sign * directions, separation)
     on_flank = rays.followed(_separation_or_edge_reached)
     places = np.matmul((on_flank.radius[:, None] * rays.along)[:, None], gap.axes[:, :2])[:, 0]
     points, reached = flip * (gap.point + places), cache(lambda: rays.past_edges(on_flank))

@@ -52,4 +52,4 @@ def _patches(mesh):
     found = contours(mesh.drive, mesh.drive.tca(angles), DIRECTIONS)
     known = [patch for patch in found if patch is not None]
     points = {name: [np.empty((0, 3)), *(patch.body_points[name] for patch in known)] for name in names}
-    return {name: np.concatenate(parts) * [1.0, mesh.mirror, 1.0] for name, parts in points.items()}
+    return {name: np.concatenate(parts) * mesh.drive.design.mirror.flip for name, parts in points.items()}

@@ -134,12 +134,12 @@ class Analysis:
     def patch(self, member):
         """The patch of a member with the design's hand."""
         right = self.patches[member]
-        flip = np.array([1.0, self.mirror, 1.0])
+        flip = self.drive.design.mirror.flip
         return replace(right, points=right.points * flip, normals=right.normals * flip)
 
     def in_body(self, member, k, points):
         """Fixed-frame ``points`` (M, 3) at position ``k`` in the frame of a member, mm, with the design's hand."""
-        flip = np.array([1.0, self.mirror, 1.0])
+        flip = self.drive.design.mirror.flip
         matrix = self.matrices[member][k]
         return ((points * flip - matrix[:3, 3]) @ matrix[:3, :3]) * flip
 
@@ -274,8 +274,7 @@ def _patches(drive, tca, matrices):
     """Both flanks around the path of contact; none where there are no contact points."""
     if not tca.solved.any():
         return {}
-    mirror = drive.design.mirror.sign
-    flip, solved = np.array([1.0, mirror, 1.0]), tca.solved
+    flip, solved = drive.design.mirror.flip, tca.solved
     major, normal = flip * tca.major[solved], flip * tca.normals[solved]
     lengths = np.nan_to_num(tca.semi_axes[solved])
     ellipses = np.stack([major, np.cross(normal, major)], axis=1) * lengths[:, :, None]
@@ -284,7 +283,7 @@ def _patches(drive, tca, matrices):
     for body in drive.design.description["bodies"]:
         rotations = matrices[body["name"]][solved, :3, :3]
         axes = np.einsum("nxb,nax->nab", rotations, ellipses)
-        path = _parameters(drive, body, tca, mirror)[solved]
+        path = _parameters(drive, body, tca)[solved]
         patches[body["name"]] = patch(drive.flank(body["name"]), path, axes, size / 70)
     return patches
 
@@ -302,8 +301,9 @@ def _line_patches(drive, lines):
     return patches
 
 
-def _parameters(drive, body, tca, mirror):
+def _parameters(drive, body, tca):
     """Surface parameters of the contact points on a body (N, k), right-hand drive."""
+    mirror = drive.design.mirror.sign
     order = np.argsort(mirror * tca.angles)
     unknowns, _ = drive.trace(mirror * tca.angles[order])
     return unknowns[np.argsort(order)][:, body["unknowns"]]

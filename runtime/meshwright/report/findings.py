@@ -8,17 +8,16 @@ import numpy as np
 
 from meshwright.contact import words
 from meshwright.contact.results import ARCSEC, impossible
+from meshwright.cycle import room
 from meshwright.cycle.backlash import meaning
-from meshwright.cycle.ends import event, why_open
-from meshwright.cycle.transmission import ROUND_OFF
+from meshwright.cycle.ends import event, why_open, without_contact
+from meshwright.cycle.pairs import Mesh
+from meshwright.cycle.transmission import ROUND_OFF, changes
+from meshwright.flank.pointed import pointed
 from meshwright.report.numbers import fixed, number
 
-#: What negative backlash means, what commonly causes it, and what helps.
-_JAMS = (
-    "The teeth are thicker than the spaces (negative backlash): the drive jams. An oversize tool whose blade is as "
-    "wide as the pinion's space leaves the wheel's teeth so; cutting deeper, or setting the members further apart, "
-    "makes room."
-)
+#: What negative backlash means.
+_JAMS = "The teeth are thicker than the spaces (negative backlash): the drive jams."
 
 
 @dataclass(frozen=True)
@@ -102,11 +101,18 @@ def _averages(mesh):
 def findings(analysis):
     """What a reader should know before the figures."""
     said = _window(analysis) + _statuses(analysis) + _flags(analysis) + _first(analysis)
+    said += [Finding("warn", _sentence(str(member))) for member in pointed(analysis.drive)]
     said += _error(analysis) + _loaded(analysis)
     if not any(f.kind == "warn" for f in said):
         said.insert(0, Finding("good", "Every position was solved to a contact that bodies can make."))
     said.append(Finding("note", _sentence(analysis.drive.certify(analysis.tca.angles, analysis.tca).said())))
     return said
+
+
+def _jams(analysis):
+    """That the drive jams, and which sizes of its design would give it room."""
+    helps = room.said(room.room(analysis.drive, analysis.running.backlash))
+    return Finding("warn", _JAMS + (f" What gives it room, one at a time: {helps}." if helps else ""))
 
 
 def _sentence(words):
@@ -123,10 +129,13 @@ def _loaded(analysis):
 
 
 def _window(analysis):
+    mesh = Mesh.of(analysis.drive)
+    said = [Finding("warn", f"Contact ratio {fixed(mesh.contact_ratio, 3)}, below 1: {apart}.")] if (
+        apart := without_contact(mesh)) else []  # fmt: skip
     if analysis.running is None:
-        return []
-    window, why = analysis.running.mesh.window, why_open(analysis.running.mesh)
-    said = [
+        return said
+    window, why = mesh.window, why_open(mesh)
+    said += [
         Finding("note", f"Contact {name} at {_deg(end.angle, 3)} of the pinion, at {event(end.reason, end.member)}.")
         for name, end in (("begins", window.begin), ("ends", window.end))
         if end.exists
@@ -190,8 +199,7 @@ def _error(analysis):
     if analysis.running.constant:
         said.append(Finding("note", "The transmission error is constant to round-off: the drive turns uniformly."))
     if analysis.running.backlash < -ROUND_OFF:
-        said.append(Finding("warn", _JAMS))
-    if error.transfers:
-        at = " and ".join(f"{_deg(a, 2)}" for a in error.transfers)
+        said.append(_jams(analysis))
+    if at := " and ".join(_deg(a, 2) for a in changes(analysis.running.mesh, error.transfers)):
         said.append(Finding("note", f"Neighbouring pairs agree, so that one can take over from the other, at {at}."))
     return said

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from meshwright.flank.chart import Chart
 from meshwright.report.projection import Projection
 
 #: Room around the path, in contact ellipses.
@@ -11,8 +12,6 @@ ROOM = 1.3
 
 #: Least and largest number of grid points along a parameter.
 LEAST, LARGEST = 21, 480
-
-_NEWTON_STEPS = 30
 
 
 @dataclass(frozen=True)
@@ -47,46 +46,25 @@ def patch(flank, path, axes, cell):
     """The :class:`Patch` around a path of contact: parameters ``path`` (N, k), semi-axes of the contact ellipses
     there ``axes`` (N, 2, 3), body frame, mm.
 
-    The first two of the flank's parameters span the grid, with cells of about ``cell`` mm; a third parameter is
-    solved from the flank's own condition.
+    The first two of the flank's parameters span the grid, with cells of about ``cell`` mm; others are solved from the
+    flank's own conditions.
     """
-    at = flank(path)
+    at, chart = flank(path), Chart(flank, (0, 1), flank.sizes)
     slopes = np.concatenate([np.swapaxes(at.tangents, 1, 2), at.conditions[:, :, 1:]], axis=1)
     inverse = np.linalg.pinv(slopes)[:, :, :3]
     reach = ROOM * np.linalg.norm(np.einsum("nkx,nax->nka", inverse, axes), axis=2)
     low, high = (path - reach).min(axis=0), (path + reach).max(axis=0)
-    speed = np.linalg.norm(_along(at), axis=2).mean(axis=0)
+    speed = np.linalg.norm(chart.by_coordinates(at, np.swapaxes(at.tangents, 1, 2)), axis=1).mean(axis=0)
     counts = np.clip(np.ceil((high - low)[:2] * speed / cell), LEAST, LARGEST).astype(int)
     lines = [np.linspace(low[i], high[i], counts[i]) for i in (0, 1)]
     grid = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1)
-    return Patch.of(flank, _completed(flank, _extended(path, grid)))
-
-
-def _along(at):
-    """Tangents (N, 2, 3) by the first two parameters, while a third one keeps to the flank's condition."""
-    if not at.conditions.shape[1]:
-        return at.tangents[:, :2]
-    slopes = at.conditions[:, 0, 1:]
-    return at.tangents[:, :2] - (slopes[:, :2] / slopes[:, 2:])[:, :, None] * at.tangents[:, 2:]
+    near = _extended(path, grid)
+    completed = chart.complete(grid.reshape(-1, 2), near.reshape(-1, near.shape[2]))
+    return Patch.of(flank, completed.reshape(near.shape))
 
 
 def _extended(path, grid):
-    """The grid with a third parameter, where the path has one, that follows the path linearly."""
-    if path.shape[1] == 2:
-        return grid
+    """The grid with further parameters, where the path has such, that follow the path linearly."""
     linear = np.column_stack([np.ones(len(path)), path[:, :2]])
-    slopes, *_ = np.linalg.lstsq(linear, path[:, 2], rcond=None)
-    return np.concatenate([grid, slopes[0] + grid @ slopes[1:, None]], axis=2)
-
-
-def _completed(flank, parameters):
-    """The grid with its third parameter, where there is one, solved from the flank's condition by Newton's method."""
-    if parameters.shape[2] == 2:
-        return parameters
-    q = parameters.reshape(-1, 3).copy()
-    for _ in range(_NEWTON_STEPS):
-        condition = flank(q).conditions[:, 0]
-        step = condition[:, 0] / condition[:, 3]
-        q[:, 2] -= step
-    q[~(np.abs(step) < 1e-9)] = np.nan
-    return q.reshape(parameters.shape)
+    slopes, *_ = np.linalg.lstsq(linear, path[:, 2:], rcond=None)
+    return np.concatenate([grid, slopes[0] + grid @ slopes[1:]], axis=2)

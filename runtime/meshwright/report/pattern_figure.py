@@ -92,7 +92,7 @@ def _ellipses(analysis, member):
 
 def _lines(analysis, member):
     """Lines of contact, body frame: (M, 3) each, mm."""
-    flip = np.array([1.0, analysis.mirror, 1.0])
+    flip = analysis.drive.design.mirror.flip
     touching = [line.body_points[member] * flip for line in analysis.lines if len(line.points)]
     return touching[:: max(1, len(touching) // LINES)]
 

@@ -44,8 +44,8 @@ def scene(analysis):
     touch = _along_lines(analysis) if analysis.lines else _at_points(tca)
     if not analysis.patches:
         return None
-    flip = np.diag([1.0, analysis.mirror, 1.0, 1.0])
-    matrices = {name: flip @ m @ flip for name, m in analysis.matrices.items()}
+    mirror = analysis.drive.design.mirror
+    matrices = {name: mirror.placements(m) for name, m in analysis.matrices.items()}
     inward = _inward(touch, matrices["pinion"])
     points = touch.points[touch.known]
     centre = points.mean(axis=0)
@@ -75,7 +75,7 @@ def _at_points(tca):
 
 def _along_lines(analysis):
     """Each line with its middle point and the normal there."""
-    flip = np.array([1.0, analysis.mirror, 1.0])
+    flip = analysis.drive.design.mirror.flip
     points, normals = (np.full((len(analysis.lines), 3), np.nan) for _ in range(2))
     flank = analysis.drive.flank("pinion")
     for k, line in enumerate(analysis.lines):
@@ -105,21 +105,21 @@ def _body(analysis, name, matrices, cell):
         "colour": [round(c + LIGHTER * (255 - c)) for c in colour],
         "copies": _copies(analysis, name),
         "matrices": _packed(matrices[:, :3, :]),
-        "tooth": tooth_data(analysis.drive, name, analysis.teeth[name], analysis.mirror, cell),
+        "tooth": tooth_data(analysis.drive, name, analysis.teeth[name], cell),
     }
 
 
-def tooth_data(drive, member, teeth, mirror, cell):
+def tooth_data(drive, member, teeth, cell):
     """A tooth, of which a turn has so many: the flank in contact with its border resolved, in cells of about ``cell``
     mm (points, normals, corners of triangles), and by point the angle about the axis to the far flank, with its normal.
     """
-    flip, drawn = np.array([1.0, mirror, 1.0]), drawn_mesh(drive.region(member), cell)
+    flip, drawn = drive.design.mirror.flip, drawn_mesh(drive.region(member), cell)
     behind = tooth(drive, member, drawn, teeth)
     return {
         "points": _packed(drawn.points * flip),
         "normals": _packed(drawn.normals * flip),
         "triangles": _packed(drawn.triangles, "<u4"),
-        "across": _packed(behind.across * mirror),
+        "across": _packed(behind.across * drive.design.mirror.sign),
         "far": _packed(behind.normals * flip),
     }
 

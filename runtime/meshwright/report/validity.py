@@ -9,6 +9,7 @@ VALIDITY = (
     "A limit of the blank that the design does not give is not applied; a window that nothing limits has no end.",
     "The wheel follows the pair that leads. Where a flank has ended at a tip or a face, its edge may go on to touch: "
     "that is in the curve of rigid teeth only, not in the other numbers.",
-    "A misalignment is applied alone, on top of those of the design, and its effect is a central difference: "
-    "proportional effects may be scaled, peak-to-peak values may not.",
+    "A misalignment is applied alone, on top of those of the design: curves and peak-to-peak values are of the whole "
+    "analysis with a step of it either way, changes for one step are by exact derivatives. These may be scaled, "
+    "peak-to-peak values may not.",
 )

@@ -105,7 +105,7 @@ def pattern(analysis, member):
     whole = analysis.whole[member]
     sheet, colour = Sheet(whole, member), style.MEMBERS[member]
     figure, panels = sheet.axes()
-    flip = np.array([1.0, analysis.mirror, 1.0])
+    flip = analysis.drive.design.mirror.flip
     lines = [sheet.flat(line.body_points[member] * flip) for line in analysis.lines if len(line.points)]
     rings = [sheet.flat(c.body_points[member]) for c in analysis.pattern if np.isfinite(c.body_points[member]).all()]
     rings = [np.vstack([ring, ring[:1]]) for ring in rings]

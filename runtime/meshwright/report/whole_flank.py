@@ -78,7 +78,7 @@ def _whole(drive, member, triangles, names, contacts):
         ease_off, alone, running = rays.nearest()
     else:
         ease_off = alone = running = np.full(len(triangles.points), np.nan)
-    flip = np.array([1.0, drive.design.mirror.sign, 1.0])
+    flip = drive.design.mirror.flip
     return WholeFlank(
         triangles.points * flip, triangles.normals * flip, triangles.triangles, triangles.border,
         tuple(names[k] for k in triangles.limit), ease_off, alone, running,

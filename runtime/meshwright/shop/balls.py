@@ -114,7 +114,7 @@ class _Space:
 
     @classmethod
     def of(cls, drive, member):
-        right = drive.with_(design={"hand": drive.design.description["handed"]}) if drive.design.mirrored else drive
+        right = drive.as_described
         drives = [of_flank(right, word) for word in flank_words(right)]
         teeth = drive.teeth(member)
         first, second = (_Side.of(d.region(member)) for d in drives)

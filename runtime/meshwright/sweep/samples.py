@@ -82,15 +82,16 @@ class Points:
         return np.isin(self.status, analysis.status_codes(*SOLVED))
 
     def mirrored(self, mirror):
-        return Points(self.status, mirror * self.error, self.points * [1.0, mirror, 1.0], self.flags)
+        """The same by a :class:`~meshwright.design.mirror.Mirror`."""
+        return Points(self.status, mirror.sign * self.error, self.points * mirror.flip, self.flags)
 
 
 def solve(drive, keys, values, angles, portable=False):
     """:class:`Points` of the samples ``values`` (S, K) of ``keys`` at pinion angles (N,), rad: as of ``Drive.tca``."""
-    mirror = drive.design.mirror.sign
+    mirror = drive.design.mirror
     angles = np.asarray(angles, dtype=float)
     batch = Batch.of(drive, keys, values, portable)
-    found = batch.points(mirror * angles).mirrored(mirror)
+    found = batch.points(mirror.sign * angles).mirrored(mirror)
 
     def drive_of(k):
         return _with_keys(drive, keys, values[k])

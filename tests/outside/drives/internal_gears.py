@@ -237,8 +237,8 @@ def internal_gears():
         start=start,
         guess={},
         sample={
-            "flank": 1, "normal_module_mm": 2, "pressure_angle_deg": 20, "helix_angle_deg": 12, "pinion_teeth": 20,
-            "wheel_teeth": 52, "face_width_mm": 20, "pinion_lead_crowning_um": 20,
+            "flank": 1, "normal_module_mm": 2, "pressure_angle_deg": 20, "helix_angle_deg": 12, "pinion_teeth": 30,
+            "wheel_teeth": 72, "face_width_mm": 20, "pinion_lead_crowning_um": 20,
         },
         sample_angle=0.02,
         pinion_teeth=PINION.teeth.key,

@@ -7,9 +7,9 @@ import pytest
 
 from meshwright import DesignError, Drive
 from meshwright.contact.results import ARCSEC
+from tests.contact.test_fifty_digits import _random_tables
 from tests.independent import gap_search
 from tests.quick import quick
-from tests.test_fifty_digits import _random_tables
 
 #: Published ranges of the worm angle, degrees.
 RANGES = {"standard": (-1050, 1430), "semi": (-560, 2080), "full": (20, 2740)}

@@ -9,7 +9,10 @@ import pytest
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.contact.results import ARCSEC
+from meshwright.cycle.backlash import backlash
 from meshwright.cycle.pairs import Mesh
+from meshwright.cycle.rigid import ROUND_OFF
+from meshwright.cycle.room import room
 from meshwright.cycle.transmission import envelopes, transmission_error
 
 
@@ -154,6 +157,72 @@ def test_moving_the_wheel_away_opens_the_backlash(capsys):
     wheel_radius = 277.38
     expected = 2 * 0.05 * np.tan(np.radians(10.0)) / np.cos(np.radians(3.0)) / wheel_radius / ARCSEC
     assert arcsec[1] - arcsec[0] == pytest.approx(expected, rel=0.05)
+
+
+@pytest.mark.parametrize("name", ["plain-za", "helical-crowned"])
+def test_a_drive_that_jams_names_the_sizes_that_give_it_room(name, capsys):
+    """Each change that is named takes the backlash to zero, that of the assembly among them."""
+    settings = ["--set", "misalignment.center_distance_mm=-0.05"]
+    assert main(["ratio", name, *settings, "--json", "-"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["backlash_arcsec"] < 0.0
+    drive = Drive.load(name).with_(misalignment={"center_distance_mm": -0.05})
+    for entry in found["room"]:
+        table, key = entry["key"].split(".")
+        changed = drive.with_(**{table: {key: drive.design.value(key, table) + entry["change"]}})
+        assert abs(backlash(changed) / ARCSEC) < 0.02 * abs(found["backlash_arcsec"])
+    keys = {entry["key"] for entry in found["room"]}
+    assert "misalignment.center_distance_mm" in keys
+    assert ("design.cutting_center_distance_mm" in keys) == (name == "plain-za")
+    assert main(["ratio", name, *settings]) == 0
+    assert "what gives it room, one at a time: design." in capsys.readouterr().out
+    assert not Drive.load("spherical-table-3-1-spur").contact_ratio().backlash < -ROUND_OFF
+    assert room(Drive.load("spherical-table-3-1-spur"), 0.0) == ()
+
+
+#: Spur gears whose teeth are so low that a pair ends half a pitch before the next one begins.
+LOW_TEETH = """
+drive = "cylindrical-gears"
+[design]
+normal_module_mm = 2.5
+pressure_angle_deg = 20
+pinion_teeth = 23
+wheel_teeth = 41
+face_width_mm = 20
+pinion_lead_crowning_um = 8
+pinion_profile_crowning_um = 5
+[blank]
+pinion_tip_radius_mm = 29.3
+wheel_tip_radius_mm = 52
+"""
+
+
+@pytest.mark.parametrize("crowning", [8, 0])
+def test_a_contact_ratio_below_1_is_said_and_no_change_of_pairs_where_none_touches(tmp_path, capsys, crowning):
+    """In a point or, without crowning, along lines: there the length of action over the base pitch (ISO 21771)."""
+    path = tmp_path / "low.toml"
+    path.write_text(LOW_TEETH)
+    settings = [f"--set=design.pinion_{kind}_crowning_um={crowning}" for kind in ("lead", "profile")]
+    assert main(["ratio", str(path), *settings]) == 0
+    shown = capsys.readouterr().out
+    alpha, bases = np.radians(20), [2.5 * z / 2 * np.cos(np.radians(20)) for z in (23, 41)]
+    lengths = [np.sqrt(tip**2 - r_b**2) - r_b * np.tan(alpha) for tip, r_b in zip((29.3, 52.0), bases, strict=True)]
+    ratio = sum(lengths) / (np.pi * 2.5 * np.cos(alpha))
+    assert "contact ratio below 1: without load a pair leaves contact before the next one begins" in shown
+    line = next(line for line in shown.splitlines() if line.startswith("pairs change at"))
+    assert line.split(",")[0].split() == ["pairs", "change", "at", "–"]
+    assert ("outside of contact" in line) == (crowning > 0)
+    said = float(shown.split("begins; over ")[1].split("°")[0])
+    assert said == pytest.approx((1 - ratio) * 360 / 23, rel=0.05 if crowning else 1e-3)
+
+
+def test_pairs_change_inside_their_contact_or_where_one_ends(capsys):
+    """Contact of the recess-action drive begins after the curves of neighbours cross: it rides on an edge."""
+    for name, inside in (("plain-zn", True), ("recess-action-full", False)):
+        assert main(["ratio", name]) == 0
+        shown = capsys.readouterr().out
+        assert "below 1" not in shown
+        assert inside == ("outside of contact" not in shown) == ("certified: pairs change" in shown)
 
 
 def test_the_papers_limits_can_be_asked_for_by_name():

@@ -34,7 +34,7 @@ CASES = [
     ({"design.grinding_wheel_radius_mm": 60.0}, ("grinding_wheel_radius_mm", "60", "not use it", "ZC, ZK", "remove")),
     ({"design.hob_profile_arc_radius_mm": 40.0}, ("hob_profile_arc_radius_mm", "40", "not use it", "ZC", "remove")),
     ({"design.normal_modul_mm": 2.0}, ("normal_modul_mm", "unknown key", "normal_module_mm")),
-    ({"misalignment.temperature": 2.0}, ("temperature", "unknown key", "remove it")),
+    ({"misalignment.temperature": 2.0}, ("temperature", "unknown key", "remove it", "[misalignment] has center_dist")),
     ({"flank": "top"}, ("flank", "top", "right", "left")),
     ({"design.worm_threads": 10**330}, ("worm_threads", "greater than 100000", "smaller")),
     ({"contact.elastic_allowance_mm": -1.0}, ("elastic_allowance_mm", "-1", "not be less than 0", "larger")),
@@ -58,6 +58,13 @@ def test_a_bad_design_is_refused_with_key_value_reason_and_remedy(changes, words
         Drive.from_tables(tables)
     for word in words:
         assert word in str(caught.value)
+
+
+def test_an_unknown_key_of_a_table_of_few_is_answered_with_all_of_them():
+    """Bevel gears have the misalignments V, H, J and Σ, not those of other families."""
+    with pytest.raises(DesignError) as caught:
+        Drive.load("bevel-formate").with_(misalignment={"vertical_deg": 0.1})
+    assert str(caught.value).endswith("[misalignment] has offset_mm, pinion_axial_mm, gear_axial_mm, shaft_angle_deg")
 
 
 @pytest.mark.parametrize("name", ["plain-za", "crossed-helical-17-23", "face-worm-conical-concave"])

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import shutil
 import subprocess
 import sys
@@ -57,6 +58,62 @@ def test_quantities_reasons_and_keys_are_explained(capsys, words, said):
         assert main(["explain", *typed]) == 0
         shown = capsys.readouterr().out
         assert said in shown and not ("." in words and "[design]" in shown)
+
+
+@pytest.mark.parametrize(
+    "word",
+    [
+        "relative", "ellipse", "ellipse semi-axes", "jams", "crowning", "tube", "joint", "unique", "rides on edge",
+        "pairs change", "first type", "pitchfork", "tip thickness", "orders", "efficiency", "lever_arms_mm",
+        "psi_fixed_hob", "helix", "transfer_angles_deg",
+    ],
+)  # fmt: skip
+def test_words_that_commands_print_are_explained(capsys, word):
+    assert main(["explain", word]) == 2 * (word == "ellipse semi-axes")
+    shown = capsys.readouterr()
+    assert len(shown.out) > 40 or "did you mean 'semi_axes'?" in shown.err
+
+
+def _names(document):
+    """Names of a document, without those of the design."""
+    if isinstance(document, list):
+        return set().union(*map(_names, document))
+    if not isinstance(document, dict):
+        return set()
+    apart = {"design", "assumed_blank", "parameters", "unknowns"}
+    return {*document}.union(*(_names(value) for name, value in document.items() if name not in apart))
+
+
+COMMANDS = [
+    *(["tca", name, "--phi-deg", "0", "--friction", "0.05"] for name in ("plain-za", "helical-crowned")),
+    *(["ratio", name, "--friction", "0.05"] for name in ("plain-za", "spur-profile-shift")),
+    *(["limits", name] for name in ("zk-zn-90", "bevel-hypoid", "helical-crowned")),
+]
+
+
+@pytest.mark.parametrize("words", quick(COMMANDS, *COMMANDS[::2]))
+def test_every_name_and_label_that_a_command_writes_is_known_or_answered_with_another(capsys, words):
+    assert main([*words, "--json", "-"]) == 0
+    names = _names(json.loads(capsys.readouterr().out))
+    assert main(words) == 0
+    lines = capsys.readouterr().out.splitlines()[1:]
+    labels = [re.match(r" *([a-z_,-]+( [a-z_,-]+)*?)(  +|: )", line) for line in lines]
+    names |= {match[1].replace(",", "") for match in labels if match and len(match[1].split()) < 7}
+    assert len(names) > 10
+    for name in names:
+        status, shown = main(["explain", *name.split()]), capsys.readouterr()
+        assert status == 0 or "did you mean" in shown.err, name
+
+
+def test_the_headings_of_a_report_are_explained_or_answered_with_another_word(capsys):
+    from meshwright.report import analyse
+    from meshwright.report.findings import tiles
+    from meshwright.report.tables import groups
+
+    analysis = analyse(Drive.load("spherical-table-3-1-concave"), lambda text: None)
+    for words in (*(tile.label for tile in tiles(analysis)), *(group.title for group in groups(analysis))):
+        status, shown = main(["explain", *words.split()]), capsys.readouterr()
+        assert status == 0 or "did you mean" in shown.err, words
 
 
 def test_the_help_of_new_names_the_words_of_every_family(capsys):
@@ -182,6 +239,25 @@ def test_a_size_of_ones_own_that_nothing_follows_is_said(tmp_path, monkeypatch, 
     assert main(["new", "bevel", "--m", "4", "--z", "15:44", "--set", "design.offset_mm=20", "--out", "b.toml"]) == 0
     shown = capsys.readouterr().out
     assert "design.offset_mm = 20: as given; no other size follows it" in shown and "careful: no_contact" in shown
+    assert "without design.offset_mm = 20 the flanks touch" in shown and "bevel-hypoid" in shown
+    assert main(["tca", "b.toml", "--phi-deg", "0"]) == 1
+    assert "design.offset_mm = 20: 0 by the proportions of this family" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("own", "blamed"),
+    [
+        (["design.hob_pitch_radius_mm=5"], "design.hob_pitch_radius_mm = 5"),
+        (["contact.separation_mm=0.01", "design.hob_pitch_radius_mm=5"], "design.hob_pitch_radius_mm = 5"),
+        (["contact.separation_mm=0.01"], None),
+    ],
+)
+def test_a_size_of_ones_own_without_which_the_flanks_touch_is_named(tmp_path, monkeypatch, capsys, own, blamed):
+    monkeypatch.chdir(tmp_path)
+    settings = [f"--set={setting}" for setting in own]
+    assert main(["new", "cylindrical-worm", "--m", "4", "--z", "2:40", *settings, "--out", "w.toml"]) == 0
+    lines = [line for line in capsys.readouterr().out.splitlines() if line.startswith("without ")]
+    assert [line.split(" the flanks")[0] for line in lines] == ([f"without {blamed}"] if blamed else [])
 
 
 REFUSED = {
