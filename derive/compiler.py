@@ -106,7 +106,7 @@ def checked(plan):
     validate_limits(plan.drive, observed, plan.sample)
     validate_place(plan.drive, observed)
     validate_regions(plan.drive, joints(plan))
-    c, functions = f"c/{plan.drive.name}", [f for f in guards.functions(plan) if f.name in lanes.KERNELS]
+    c, functions = f"c/{plan.drive.name}", [f for f in guards.functions(plan) if f.key in lanes.KERNELS]
     kernels = arrange(plan, functions, often=lanes.KERNELS)
     ended = replace(plan, systems=tuple(map(at_end, plan.systems)))
     return [
@@ -126,9 +126,9 @@ def emit(plan, origin):
     yield f"{c}.h", c99.header(plan, routines, metadata_of, RUNTIME)
     moved = differentiate(plan)
     tangents = [tangent.evaluated() for tangent in moved.tangents()]
-    moving = arrange(moved, tangents, often={f.name for f in tangents})
+    moving = arrange(moved, tangents, often={f.key for f in tangents})
     yield f"{c}_sensitivity.h", sensitivity.header(moved, moving, metadata.GENERATOR)
-    proved = unfused(plan, [f for f in guards.functions(plan) if f.name in certify.FUNCTIONS])
+    proved = unfused(plan, [f for f in guards.functions(plan) if f.key in certify.FUNCTIONS])
     yield f"{c}_certify.h", certify.header(plan, proved, metadata_of, RUNTIME)
     evaluated = [*guards.functions(moved), *guards.moving(moved), *guards.bounded(moved), *tangents]
     metadata_of["side_conditions"] = guards.side_conditions(moved, evaluated)

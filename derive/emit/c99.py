@@ -266,13 +266,13 @@ def linearised(printer, routines):
 
 def _surface(plan, flank, state, routines):
     printer, name = _on_arguments(plan, flank.parameters, state), f"{flank.region}_{flank.body}"
-    body, curvature = (printer.body(*routines[of])[0] for of in (name, f"curvature_{name}"))
+    body, curvature = (printer.body(*routines[f"surface {of}"])[0] for of in (name, f"curvature_{name}"))
     return {"flank": flank, "body": body, "curvature": curvature}
 
 
 def _function(plan, function, state, routines):
     printer, groups = _on_arguments(plan, function.parameters, state), [o.nodes for o in function.outputs]
-    [made], tests = routines[function.name], plan.tests.get((function.name, 0), {})
+    [made], tests = routines[f"function {function.name}"], plan.tests.get((function.name, 0), {})
     return {"function": function, "body": _tested(printer, made, groups, tests)}
 
 
@@ -296,9 +296,9 @@ def _system(plan, drive, routines):
     leaves = known | {lower(u): f"y[{k}]" for k, u in enumerate(plan.unknowns)}
     printer = Printer(plan.tape, drive.name, leaves, seldom=True)
     index, name = {p.symbol: k for k, p in enumerate(drive.parameters)}, plan.system.name
-    residual, jacobian = linearised(printer, routines[f"{name}_eval"])
+    residual, jacobian = linearised(printer, routines[f"system {name}_eval"])
     guess, scale, watch, values = (
-        printer.body(*routines[f"{name}_{part}"])[0] for part in ("guess", "scale", "watch", "fill")
+        printer.body(*routines[f"system {name}_{part}"])[0] for part in ("guess", "scale", "watch", "fill")
     )
     return {
         "name": name,

@@ -201,7 +201,7 @@ def _system(plan, drive, table):
     name = plan.system.name
     return {
         "name": name,
-        "equations": table(f"{name}_eval", leaves, len(plan.residual)),
-        "values": table(f"{name}_fill", leaves),
+        "equations": table(f"system {name}_eval", leaves, len(plan.residual)),
+        "values": table(f"system {name}_fill", leaves),
         "fills": [index[target] for target in plan.system.fills],
     }

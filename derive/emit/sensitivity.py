@@ -32,7 +32,7 @@ def _body(drive, tangent, routines):
         for name, nodes in tangent.inputs.items()
         for k, node in enumerate(nodes)
     }
-    return Printer(tangent.lower.tape, drive.name, leaves).body(routines[tangent.name][tangent.part])[0]
+    return Printer(tangent.lower.tape, drive.name, leaves).body(routines[tangent.evaluated().key][tangent.part])[0]
 
 
 def _rule(drive, rule, tangent, routines):

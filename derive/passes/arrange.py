@@ -1,7 +1,7 @@
 """The generated functions as the routines that are printed: quotients as products, products in sums, in the order in
 which a processor takes them.
 
-Input: generated functions, each by what it returns and what it is given. Output: by name their routines.
+Input: generated functions, each by what it returns and what it is given. Output: by key their routines.
 """
 
 from collections.abc import Collection, Iterable, Mapping
@@ -15,7 +15,7 @@ from derive.passes.plan import Schedule
 from derive.passes.quotients import reciprocals
 from derive.program.routine import Routine, routine
 
-#: Name of a generated function → its routines, part by part; a part that goes on from another follows it.
+#: Key of a generated function → its routines, part by part; a part that goes on from another follows it.
 Routines: TypeAlias = Mapping[str, tuple[Routine, ...]]
 
 
@@ -41,9 +41,9 @@ class SideBySide:
 
 
 def arrange(plan: Schedule, functions: Iterable[Evaluated], often: Collection[str] = OFTEN) -> Routines:
-    """The :data:`Routines` of these functions of a drive, of which those named ``often`` are called often."""
-    return _by_name(
-        (f.name, tuple(_ordered(made, f.name in often) for made in _routines(f, _outputs(plan, f)))) for f in functions
+    """The :data:`Routines` of these functions of a drive, of which those with keys among ``often`` are called often."""
+    return _by_key(
+        (f.key, tuple(_ordered(made, f.key in often) for made in _routines(f, _outputs(plan, f)))) for f in functions
     )
 
 
@@ -59,15 +59,15 @@ def side_by_side(plan: Schedule) -> SideBySide:
 
 def unfused(plan: Schedule, functions: Iterable[Evaluated]) -> Routines:
     """The same for arithmetic that encloses what it computes, where a sum gains nothing by a product: each in one."""
-    return _by_name(
-        (f.name, (reciprocals(routine(f.tape, _outputs(plan, f), f.known)),)) for f in functions
+    return _by_key(
+        (f.key, (reciprocals(routine(f.tape, _outputs(plan, f), f.known)),)) for f in functions
     )
 
 
-def _by_name(made: Iterable[tuple[str, tuple[Routine, ...]]]) -> Routines:
+def _by_key(made: Iterable[tuple[str, tuple[Routine, ...]]]) -> Routines:
     found: dict[str, tuple[Routine, ...]] = {}
-    for name, routines in made:
-        found[name] = (*found.get(name, ()), *routines)
+    for key, routines in made:
+        found[key] = (*found.get(key, ()), *routines)
     return found
 
 

@@ -21,8 +21,8 @@ def functions(plan: Schedule) -> Iterator[Evaluated]:
     def put(name: str, outputs: Iterable[int], known: frozenset[int] = state) -> Evaluated:
         return Evaluated(name, plan.tape, plan.lower, (tuple(outputs),), known, "result")
 
-    of_systems = {f"{system.system.name}_{part}" for system in plan.systems for part in ("eval", "fill")}
-    yield from (f for f in (*guards.functions(plan), *guards.moving(plan)) if f.name in {*_SAME, *of_systems})
+    of_systems = {f"system {system.system.name}_{part}" for system in plan.systems for part in ("eval", "fill")}
+    yield from (f for f in (*guards.functions(plan), *guards.moving(plan)) if f.key in {*_SAME, *of_systems})
     yield put("watched", _watched(plan))
     for body, outputs in _flanks(plan):
         yield put(f"on_{body}", outputs)

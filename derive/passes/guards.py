@@ -50,6 +50,7 @@ class Evaluated:
 
     ``groups`` are results of which it is enough that one is not finite; ``guard`` is the name of what answers;
     ``part`` tells apart what is printed as one function from several tapes. The ``leading`` outputs can be had alone.
+    ``of`` says what of the description it belongs to, a system, surface or function.
     """
 
     name: str
@@ -60,6 +61,12 @@ class Evaluated:
     guard: str
     part: int = 0
     leading: int | None = None
+    of: str = ""
+
+    @property
+    def key(self) -> str:
+        """Its name among all functions, whatever they are called in a description."""
+        return f"{self.of} {self.name}".strip()
 
     @property
     def outputs(self) -> list[int]:
@@ -99,8 +106,8 @@ def functions(plan: Schedule) -> Iterator[Evaluated]:
     ) -> Evaluated:
         return Evaluated(name, tape, lower, (tuple(outputs),), known, guard, leading=leading)
 
-    def results(name: str, outputs: Iterable[Output]) -> Evaluated:
-        return Evaluated(name, tape, lower, tuple(o.nodes for o in outputs), state, "result")
+    def results(name: str, outputs: Iterable[Output], of: str = "") -> Evaluated:
+        return Evaluated(name, tape, lower, tuple(o.nodes for o in outputs), state, "result", of=of)
 
     for k, rule in enumerate(plan.rules):
         yield _on_parameters("derive", rule, "parameter", k)
@@ -121,10 +128,10 @@ def functions(plan: Schedule) -> Iterator[Evaluated]:
     yield on_tape("scale", plan.scales, "residual")
     yield results("observe", plan.observed)
     for table in (*plan.flanks, *plan.regions):
-        yield results(f"{table.region}_{table.body}", table.outputs)
-        yield results(f"curvature_{table.region}_{table.body}", table.curvature)
+        yield results(f"{table.region}_{table.body}", table.outputs, "surface")
+        yield results(f"curvature_{table.region}_{table.body}", table.curvature, "surface")
     for function in plan.functions:
-        yield results(function.name, function.outputs)
+        yield results(function.name, function.outputs, "function")
 
 
 def moving(plan: Bound) -> Iterator[Evaluated]:
@@ -173,7 +180,8 @@ def _of_system(plan: SystemTape) -> Iterator[Evaluated]:
         ("fill", plan.values, "parameter", None),
     ):
         groups = (tuple(outputs),)
-        yield Evaluated(f"{name}_{suffix}", plan.tape, plan.lower, groups, frozenset(), guard, leading=leading)
+        f = Evaluated(f"{name}_{suffix}", plan.tape, plan.lower, groups, frozenset(), guard, leading=leading)
+        yield replace(f, of="system")
 
 
 def partial_operations(evaluated: Evaluated) -> list[int]:

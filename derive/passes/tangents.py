@@ -25,7 +25,7 @@ _POINT = "point_pinion_f"
 
 @dataclass(frozen=True)
 class Tangent:
-    """Tangents ``nodes`` on a tape, of the generated function ``name``; ``part`` as in :class:`Evaluated`.
+    """Tangents ``nodes`` on a tape, of the generated function ``name``; ``part`` and ``of`` as in :class:`Evaluated`.
 
     ``inputs`` are its arguments and their changes: name → nodes.
     """
@@ -35,11 +35,13 @@ class Tangent:
     inputs: Mapping[str, tuple[int, ...]]
     nodes: tuple[int, ...]
     part: int = 0
+    of: str = ""
 
     def evaluated(self) -> Evaluated:
         """The generated function, for the list of side conditions."""
         known = frozenset(i for nodes in self.inputs.values() for i in nodes)
-        return Evaluated(self.name, self.lower.tape, self.lower, (self.nodes,), known, "tangent", self.part)
+        tape, nodes = self.lower.tape, (self.nodes,)
+        return Evaluated(self.name, tape, self.lower, nodes, known, "tangent", self.part, of=self.of)
 
 
 @dataclass(frozen=True)
@@ -116,7 +118,7 @@ def _of_flank(plan: Schedule, flank: Flank, by_p: Mapping[int, int]) -> Tangent:
     """Of a flank's point, at fixed parameters of the flank: the normal part does not depend on which are fixed."""
     inputs = _inputs("p", by_p) | {"q": tuple(map(plan.lower, flank.parameters))}
     point = next(o for o in flank.outputs if o.name == "point")
-    return Tangent(f"{flank.body}_tangent", plan.lower, inputs, _tangents(plan.tape, by_p, point.nodes))
+    return Tangent(f"{flank.body}_tangent", plan.lower, inputs, _tangents(plan.tape, by_p, point.nodes), of="surface")
 
 
 def _of_rule(drive: Drive, rule: Rule, part: int) -> Tangent:
@@ -136,4 +138,7 @@ def _of_system(drive: Drive, plan: SystemTape) -> tuple[Tangent, Tangent]:
     inputs = _inputs("q", by_q) | _inputs("y", by_y) | {"q": (*by_q, lower(PATH))}
     seeds, name = {**by_q, **by_y}, plan.system.name
     residual, values = (_tangents(plan.tape, seeds, nodes) for nodes in (plan.residual, plan.values))
-    return Tangent(f"{name}_tangent", lower, inputs, residual), Tangent(f"{name}_fill_tangent", lower, inputs, values)
+    return (
+        Tangent(f"{name}_tangent", lower, inputs, residual, of="system"),
+        Tangent(f"{name}_fill_tangent", lower, inputs, values, of="system"),
+    )

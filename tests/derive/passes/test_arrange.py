@@ -17,10 +17,10 @@ def test_every_function_computes_what_the_tape_does():
     functions = [*guards.functions(made), *guards.moving(made), *guards.bounded(made)]
     routines = arrange(made, functions)
     for f in functions:
-        if f.tape is made.tape and f.name != "setup":
-            outputs = [i for part in routines[f.name] for i in part.outputs]
+        if f.tape is made.tape and f.key != "setup":
+            outputs = [i for part in routines[f.key] for i in part.outputs]
             assert outputs[: len(f.outputs)] == f.outputs
-            values = [v for part in routines[f.name] for v in check.residues(part)]
+            values = [v for part in routines[f.key] for v in check.residues(part)]
             assert values == check.residues(routine(f.tape, outputs, f.known))
     assert len(routines["derive"]) == len(made.rules) and len(routines["setup"]) == 2
 
@@ -54,3 +54,10 @@ def test_two_lanes_take_the_same_operations():
     step = side_by_side(plan())
     first, second = ([i for k, i in step.places if k == copy] for copy in (0, 1))
     assert sorted(first) == sorted(second) and step.places[0][0] == 0
+
+
+def test_a_function_of_a_description_is_not_taken_for_one_that_every_drive_has():
+    tape, lower, nodes = lowered(x + y, x * y)
+    every, own = (Evaluated("eval", tape, lower, ((i,),), frozenset(), "result") for i in nodes)
+    routines = arrange(plan(), [every, replace(own, of="function")])
+    assert [routines[key][0].outputs for key in ("eval", "function eval")] == [(i,) for i in nodes]
