@@ -5,12 +5,13 @@ derive    ``derive.passes``   → locus, normal, meshing and contact as equation
 reduce    ``derive.passes``   → the equations' linear system solved: one fused Newton step in a fixed order of pivots
 schedule  ``derive.passes``   → all that is read from them, with binding times, edges, curvature and guards
 prove     ``derive.audit``    → the statements of the record on which each function rests (``derive.prove``)
-emit      ``derive.emit``     → C99, CasADi, JSON, text, the description as data
+emit      ``derive.emit``     → C99, CasADi, JSON, text, the description as data, of routines in the order of printing
 
 A drive's page reads like the model section of a paper. Where the meshing equation is linear in a variable, the page's
 own language has solved it, so that a generated surface is explicit before its equations are derived. The stages after
-the first are common to all drives. Statements are proved once for all of them; which ones a drive rests on is looked
-up when its operations are known.
+the first are common to all drives. What differentiates, substitutes, fuses or orders is a pass: printers read plans and
+routines that are made, and add nothing to them. Statements are proved once for all drives; which ones a drive rests on
+is looked up when its operations are known.
 """
 
 import hashlib
