@@ -63,7 +63,7 @@ def edge_contact(plan: Derived) -> Edges:
     jacobian = linearise.jacobian(tape, linearise.forward(tape, equations, unknowns))
     check.derives("edges", tape, equations, unknowns, jacobian)
     systems = tuple(_systems(pinion, wheel, len(always), len(listed)))
-    return Edges(tuple(equations), tuple(map(tuple, jacobian)), systems)
+    return Edges(tuple(equations), jacobian, systems)
 
 
 def _systems(pinion: _Member, wheel: _Member, always: int, count: int) -> Iterator[EdgeSystem]:

@@ -41,10 +41,10 @@ def derive(drive: Drive) -> Derived:
         sizes=sizes,
         residual=tuple(residual),
         linear=linear,
-        jacobian=tuple(map(tuple, jacobian)),
+        jacobian=jacobian,
         scales=scales,
         start_residual=tuple(start_residual),
-        start_jacobian=tuple(map(tuple, start_jacobian)),
+        start_jacobian=start_jacobian,
         start_scales=tuple(lower(u.scale) for u in drive.start.unknowns),
         start_guess=tuple(lower(drive.guess[u]) for u in start),
         start_solution=tuple(fixed(lower, lower(drive.start.outputs[u]), drive.start.fixed) for u in unknowns),
@@ -70,7 +70,7 @@ def _solutions(drive: Drive, lower: Lowering) -> list[tuple[int, int, int]]:
     return [(lower(solution), lower(equation), lower(slope)) for solution, equation, slope in equations]
 
 
-def _start(drive: Drive, lower: Lowering, unknowns: Iterable[Quantity]) -> tuple[list[int], linearise.Rows]:
+def _start(drive: Drive, lower: Lowering, unknowns: Iterable[Quantity]) -> tuple[list[int], linearise.Matrix]:
     """Residual of the start system, and its Jacobian."""
     nodes = [lower(r) for r in drive.start.residual]
     if drive.start.fixed:

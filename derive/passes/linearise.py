@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from derive.program.tape import Stage, Tape
 
 Rows = list[list[int]]
+Matrix = tuple[tuple[int, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -22,7 +23,7 @@ class Linear:
     angle or the solution of an equation, which has −1 there.
     """
 
-    matrix: Rows
+    matrix: Matrix
     unknowns: int
     equations: int
 
@@ -61,7 +62,7 @@ def forward(tape: Tape, residual: Sequence[int], unknowns: Sequence[int]) -> Lin
     partial = _Forward(tape, [*unknowns, *variables])
     rows = [partial(row) for row in residual]
     rows += [_closed(tape, partial(v), len(unknowns) + k, None, v) for k, v in enumerate(variables)]
-    return Linear(rows, len(unknowns), len(residual))
+    return Linear(tuple(map(tuple, rows)), len(unknowns), len(residual))
 
 
 def _assembled(
@@ -75,7 +76,7 @@ def _assembled(
     for k, variable in enumerate(variables):
         for way, row in enumerate(sides[len(residual) + k]):
             sides[len(residual) + k][way] = _closed(tape, row, len(unknowns) + k, equations.get(variable), variable)
-    return Linear(_cheapest(tape, residual, sides), len(unknowns), len(residual))
+    return Linear(tuple(map(tuple, _cheapest(tape, residual, sides))), len(unknowns), len(residual))
 
 
 def _closed(
@@ -144,20 +145,20 @@ def _operations(tape: Tape, residual: Sequence[int], linear: Linear) -> int:
     return len(_iterated(tape, [*residual, *entries])) + sum(put_in)
 
 
-def jacobian(tape: Tape, linear: Linear) -> Rows:
+def jacobian(tape: Tape, linear: Linear) -> Matrix:
     """Nodes of ∂residual/∂unknowns, row by row: the angles eliminated in the order in which they are computed."""
     n = linear.unknowns
-    turning: Rows = []
+    turning: list[tuple[int, ...]] = []
 
-    def total(row: list[int]) -> list[int]:
+    def total(row: tuple[int, ...]) -> tuple[int, ...]:
         values = row[:n]
         for slope, change in zip(row[n:], turning, strict=False):
-            values = [tape.add(v, tape.mul(slope, c)) for v, c in zip(values, change, strict=True)]
+            values = tuple(tape.add(v, tape.mul(slope, c)) for v, c in zip(values, change, strict=True))
         return values
 
     for row in linear.matrix[linear.equations :]:
         turning.append(total(row))
-    return [total(row) for row in linear.matrix[: linear.equations]]
+    return tuple(total(row) for row in linear.matrix[: linear.equations])
 
 
 def _variables(
