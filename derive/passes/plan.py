@@ -15,13 +15,11 @@ import sympy as sp
 from derive.language.drive import Drive
 from derive.language.symbols import Quantity
 from derive.passes.completion import ParameterTape, SystemTape
-from derive.passes.linearise import Linear
+from derive.passes.linearise import Linear, Matrix
 from derive.program.lowering import Lowering
 from derive.program.tape import Tape
 
-#: Nodes, and rows of them.
 Nodes: TypeAlias = tuple[int, ...]
-Rows: TypeAlias = tuple[Nodes, ...]
 #: (function, part) → group of results → nodes; where one is zero they shall be "not a number".
 Tests: TypeAlias = Mapping[tuple[str, int], Mapping[tuple[int, ...], list[int]]]
 
@@ -122,7 +120,7 @@ class Edges:
     """
 
     equations: Nodes
-    jacobian: Rows
+    jacobian: Matrix
     systems: tuple[EdgeSystem, ...]
 
 
@@ -153,10 +151,10 @@ class Derived:
     sizes: ParameterTape
     residual: Nodes
     linear: Linear
-    jacobian: Rows
+    jacobian: Matrix
     scales: Nodes
     start_residual: Nodes
-    start_jacobian: Rows
+    start_jacobian: Matrix
     start_scales: Nodes
     start_guess: Nodes
     start_solution: Nodes
