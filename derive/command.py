@@ -43,14 +43,20 @@ def log(stage, name):
 def show(arguments):
     """Print the description of a drive, or its program after a pass; exit status 0, or 2 for an unknown drive."""
     from derive.emit import text
+    from derive.passes.after import PASSES, routines
+    from derive.passes.schedule import schedule
 
     parser = argparse.ArgumentParser(prog="python -m derive show", description=show.__doc__)
     parser.add_argument("drive", help="name of a drive, or a file that defines one")
-    parser.add_argument("--after", choices=[*text.PASSES], help="the program after this pass; default: the description")
+    parser.add_argument("--after", choices=[*PASSES], help="the program after this pass; default: the description")
     options = parser.parse_args(arguments)
     try:
         for drive in _built(options.drive):
-            print(text.program(drive, options.after) if options.after else text.description(drive))
+            if options.after:
+                plan = schedule(drive)
+                print(text.program(plan, routines(plan, options.after), options.after))
+            else:
+                print(text.description(drive))
     except BrokenPipeError:  # who reads has seen enough
         sys.stdout = None
     except (outside.FileError, DescriptionError) as error:

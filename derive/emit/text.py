@@ -1,61 +1,16 @@
 """A description and its program as a person reads them: ``python -m derive show DRIVE [--after PASS]``."""
 
 from derive.language.chain import Rotation, Swing, Translation
-from derive.passes import guards
-from derive.passes.fuse import fuse
-from derive.passes.order import order
-from derive.passes.quotients import reciprocals
-from derive.passes.schedule import schedule
-from derive.program.routine import routine
 
 _SIGN = {"add": "{} + {}", "sub": "{} - {}", "mul": "{}*{}", "div": "{} / {}", "neg": "-{}", "fma": "{}*{} + {}",
          "fms": "{}*{} - {}", "fnma": "{2} - {0}*{1}"}  # fmt: skip
 
 
-def _residual(plan):
-    yield "residual", plan.residual, frozenset()
-
-
-def _jacobian(plan):
-    yield from _residual(plan)
-    yield "jacobian", [e for row in plan.jacobian for e in row], frozenset()
-
-
-def _step(plan):
-    yield from _jacobian(plan)
-    yield "step", plan.newton_step, frozenset()
-
-
-def _all(plan):
-    for f in (*guards.functions(plan), *guards.moving(plan)):
-        if f.tape is plan.tape:
-            yield f.name, f.outputs, f.known
-
-
-#: Passes by name: the routines that exist after them, and what has been done to each by then.
-PASSES = {
-    "lower": (_residual, ()),
-    "linearise": (_jacobian, ()),
-    "pivot-order": (_step, ()),
-    "binding-times": (_all, ()),
-    "reciprocals": (_all, (reciprocals,)),
-    "fuse": (_all, (reciprocals, fuse)),
-    "order": (_all, (reciprocals, fuse, order)),
-}
-
-
-def program(drive, after):
-    """The program of a drive after the pass ``after`` (one of :data:`PASSES`), as text."""
-    plan = schedule(drive)
-    routines, done = PASSES[after]
-    lines = [f"{drive.name} after {after}: {drive.title}", ""]
+def program(plan, routines, after):
+    """The ``routines`` of a drive after the pass of that name (:mod:`derive.passes.after`), as text."""
     names = _names(plan)
-    for name, outputs, known in routines(plan):
-        made = routine(plan.tape, outputs, known, name=name)
-        for apply in done:
-            made = apply(made)
-        lines += _routine(made, names)
-    return "\n".join(lines)
+    lines = [f"{plan.drive.name} after {after}: {plan.drive.title}", ""]
+    return "\n".join([*lines, *(line for made in routines for line in _routine(made, names))])
 
 
 def _names(plan):

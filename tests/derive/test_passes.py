@@ -6,8 +6,8 @@ import pytest
 import sympy as sp
 
 from derive import command, drives
-from derive.emit import text
 from derive.passes import check
+from derive.passes.after import PASSES
 from derive.passes.fuse import fuse
 from derive.passes.order import order
 from derive.passes.quotients import reciprocals
@@ -109,7 +109,7 @@ def test_a_routine_is_immutable(step):
         step.steps = ()
 
 
-@pytest.mark.parametrize("after", text.PASSES)
+@pytest.mark.parametrize("after", PASSES)
 def test_the_program_can_be_read_after_each_pass(after, capsys):
     assert command.main(["show", DRIVE, "--after", after]) == 0
     shown = capsys.readouterr().out
