@@ -12,7 +12,6 @@ from fractions import Fraction
 from derive.emit.c99 import number
 from derive.emit.render import render
 from derive.language.drive import PATH
-from derive.passes import geometry
 from derive.program.enclosure import Enclosure
 
 #: Operations by number, as in mw_certified.h. A square is its own operation: it is never negative.
@@ -163,7 +162,7 @@ def header(plan, routines, generator):
         along=table("along", before | _line(plan, count)),
         flanks=[table(f"on_{f.body}", by_state | _own(plan, f.parameters), 3) for f in plan.flanks],
         placement=table("placed", before | _own(plan, plan.placement.parameters)),
-        turning=int(geometry.turns_about_z(drive)),
+        turning=int(plan.turns_about_z),
     )
 
 

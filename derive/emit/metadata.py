@@ -13,7 +13,6 @@ from derive.language.description import prefix, rules, sources
 from derive.language.drive import Count
 from derive.language.replace import replaced
 from derive.language.symbols import interface_unit
-from derive.passes import sample
 from derive.program.tape import Stage
 
 GENERATOR = "0.1.0"
@@ -160,7 +159,7 @@ def self_test(plan):
     """A contact of the sample design, for any implementation to check its Newton step against: from ``x_start`` it
     reaches ``x``. Hex floats.
     """
-    inputs = sample.in_double(plan.sample)
+    inputs = {symbol: float(value) for symbol, value in plan.sample.items()}
     return {
         "p": [inputs[p.symbol].hex() if math.isfinite(inputs[p.symbol]) else "nan" for p in plan.drive.parameters],
         "phi": float(plan.drive.sample_angle).hex(),

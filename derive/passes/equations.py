@@ -33,6 +33,7 @@ def derive(drive: Drive) -> Derived:
     start_residual, start_jacobian = _start(drive, lower, start)
     return Derived(
         drive=drive,
+        turns_about_z=geometry.turns_about_z(drive),
         tape=lower.tape,
         lower=lower,
         rules=rules,

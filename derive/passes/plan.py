@@ -139,10 +139,11 @@ class Derived:
     """The equations of a drive on a tape: see :func:`derive.passes.equations.derive`.
 
     ``rules`` are the defaults and rules that complete a design, in the order in which they run, each on a tape of its
-    own; ``completion`` has them together.
+    own; ``completion`` has them together. ``turns_about_z``: :func:`derive.passes.geometry.turns_about_z`.
     """
 
     drive: Drive
+    turns_about_z: bool
     tape: Tape
     lower: Lowering
     rules: tuple[ParameterTape, ...]
