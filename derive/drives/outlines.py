@@ -10,6 +10,7 @@ import sympy as sp
 
 from derive.language.choice import unit_step
 from derive.language.outline import Outline, Suggestion, a, m, z_1, z_2
+from derive.language.tool import suggestions
 from derive.tools.worm_body import SHEET_USED
 
 
@@ -21,7 +22,8 @@ def _clipped(value, least, most):
 STEEPER = ((15, sp.Rational(5, 2)), (25, sp.Rational(5, 2)), (35, 5))
 
 
-def worm():
+def worm(tools):
+    """Of worms and hobs that these tools make."""
     arc = {"worm_profile": ("ZC",)}
     shift = Suggestion("", (0 * m,), name="x")
     shift_arc = replace(shift, values=(sp.Rational(1, 2) + 0 * m,), words=arc)
@@ -99,8 +101,7 @@ def worm():
                 "design.cutting_shaft_angle_deg", (shaft.symbol + swivel * 180 / sp.pi,),
                 "hob and worm have one direction of the thread where they roll on the wheel", decimals=4,
             ),
-            Suggestion("design.grinding_wheel_radius_mm", (sp.Integer(250),), "a wheel of 500 mm"),
-            Suggestion("design.profile_arc_radius_mm", (6 * m,), "six modules", decimals=2),
+            *suggestions(tools),
             Suggestion("blank.worm_tip_radius_mm", (r_1 + m,), "addendum of one axial module", decimals=3),
             Suggestion("blank.worm_root_radius_mm", (r_1 - sp.Rational(6, 5) * m,), "and clearance 0.2", decimals=3),
             throat,

@@ -11,7 +11,7 @@ The family makes a design key of each for every body that the tool makes (see :m
 gives a key of a tool that it does not use is refused.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
 from inspect import getmodule
@@ -20,6 +20,7 @@ from typing import Any, cast
 import sympy as sp
 
 from derive.language.definitions import Definitions
+from derive.language.outline import Suggestion
 from derive.language.symbols import Domain, Parameter, Table, parameter
 from derive.language.vectors import Number
 
@@ -29,7 +30,9 @@ class Datum:
     """A number that a tool needs to know, by its design key, before a body gives it a name.
 
     ``required``: no such tool without it. ``sample`` is its number, in the unit of the key, in the family's sample
-    design. The rest as in :class:`~derive.language.symbols.Parameter`.
+    design. ``suggested`` is what a first design takes, in terms of its options (:mod:`derive.language.outline`) and
+    rounded to so many ``decimals``, and ``why``; by default a tool that must know takes the sample's. The rest as in
+    :class:`~derive.language.symbols.Parameter`.
     """
 
     key: str
@@ -41,6 +44,17 @@ class Datum:
     sample: float | int | str | None = None
     table: Table = Table.DESIGN
     lower_included: bool = False
+    suggested: Number | None = None
+    why: str = ""
+    decimals: int | None = None
+
+    def suggestion(self) -> Suggestion | None:
+        """What a first design takes of this datum; None where it leaves it open."""
+        number = self.sample if self.suggested is None and self.required else self.suggested
+        if number is None:
+            return None
+        exact = sp.Rational(str(number)) if isinstance(number, str | float) else sp.sympify(number)
+        return Suggestion(f"{self.table}.{self.key}", (exact,), self.why, decimals=self.decimals)
 
     def parameter(self, body: str, prefix: str = "", required: bool | None = None) -> Parameter:
         """The design key of this datum for the tool of a body; ``prefix`` goes before the key."""
@@ -88,6 +102,12 @@ class Tool:
     @property
     def _function(self) -> Callable[..., Any]:
         return cast("partial[Any]", self.make).func if isinstance(self.make, partial) else self.make
+
+
+def suggestions(tools: Iterable[Tool]) -> tuple[Suggestion, ...]:
+    """What a first design takes of the data of tools, each once."""
+    data = {datum.key: datum for tool in tools for datum in tool.data}
+    return tuple(found for datum in data.values() if (found := datum.suggestion()))
 
 
 def tool(*data: Datum) -> Callable[[Callable[..., Any]], Tool]:

@@ -14,8 +14,9 @@ from derive.language.tool import Datum
 from derive.tools.worm_body import WormTool, reach, regression
 
 WHEEL_RADIUS = Datum(
-    "grinding_wheel_radius_mm", "r_c", "grinding wheel radius", domain=(0, sp.oo), required=True, sample=60
-)
+    "grinding_wheel_radius_mm", "r_c", "grinding wheel radius", domain=(0, sp.oo), required=True, sample=60,
+    suggested=250, why="a wheel of 500 mm",
+)  # fmt: skip
 
 
 def grinding_wheel(body, definitions, point, tangent, profile, parameter, outward, pole=None):

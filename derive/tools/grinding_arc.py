@@ -5,13 +5,15 @@ import sympy as sp
 from derive.language import vectors as v
 from derive.language.chain import swing
 from derive.language.envelope import explicit_angle
+from derive.language.outline import m
 from derive.language.symbols import Quantity
 from derive.language.tool import Datum, tool
 from derive.tools.grinding import WHEEL_RADIUS, grinding_wheel, ground_flank, ground_tool
 
 ARC_RADIUS = Datum(
-    "profile_arc_radius_mm", "rho_c", "profile arc radius", domain=(0, sp.oo), required=True, sample=40
-)
+    "profile_arc_radius_mm", "rho_c", "profile arc radius", domain=(0, sp.oo), required=True, sample=40,
+    suggested=6 * m, why="six modules", decimals=2,
+)  # fmt: skip
 
 
 @tool(WHEEL_RADIUS, ARC_RADIUS)

@@ -70,6 +70,10 @@ class Drive:
         tables = designs.changed(self.design.given(), changes)
         return Drive(designs.check(tables, self.design.places), self.backend)
 
+    def of_design(self, design):
+        """The drive of another checked design."""
+        return Drive(design, self.backend)
+
     def __repr__(self):
         return f"<{type(self).__name__} {self.design.label}, backend {self.backend}>"
 
@@ -184,12 +188,11 @@ class Drive:
         ``result``: a TCA of these angles, if there is one. Each angle is the exact double that it is or, where
         ``degrees`` are given, exactly so many degrees (fractions).
         """
-        from meshwright.contact.certificate import certify
+        from meshwright.contact.certificate import certify_contacts
 
         angles = analysis.checked_angles(angles)
         result = self.tca(angles) if result is None else analysis.checked_result(self, result, angles)
-        lines = [word == "line_contact" for word in result.status]
-        return certify(self, angles, result.solutions, lines, degrees)
+        return certify_contacts(self, result, degrees)
 
     def refined(self, result, certificates=None):
         """A TCA with transmission errors to the last digit, from the proofs of its contacts where these are shown; see

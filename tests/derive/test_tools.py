@@ -1,13 +1,16 @@
 """A tool declares what it needs to know beside its geometry, and nothing else of a drive changes for it."""
 
+from dataclasses import replace
+
 import mpmath
 import pytest
 import sympy as sp
 
 from derive.drives import cylindrical_worm
+from derive.language.outline import m
 from derive.language.surface import helicoid
 from derive.language.symbols import Quantity
-from derive.language.tool import Datum, tool
+from derive.language.tool import Datum, Tool, suggestions, tool
 from derive.passes.sample import sample_parameters
 from derive.passes.schedule import schedule
 from derive.tools.worm_body import WormTool, reach
@@ -75,3 +78,14 @@ def test_a_tool_is_called_by_its_docstring_its_module_or_its_name(crowned):
     bare = tool()(lambda body, definitions: None)
     assert bare.title == __doc__.splitlines()[0]
     assert all(use.tool.title for use in crowned.tools)
+
+
+def test_a_first_design_takes_what_a_tool_suggests_or_must_know():
+    """Without a suggestion the sample's number of what is required; what has a default stays open."""
+    asked = Datum("arc_radius_mm", "rho", "radius of the arc", required=True, sample="2.5")
+    own = replace(asked, key="own_mm", suggested=3 * m, why="three modules")
+    made = Tool(lambda body, definitions: None, (asked, own))
+    other = Tool(lambda body, definitions: None, (asked, Datum("crown_per_mm", "c", "crowning", default=0, sample=1)))
+    first, second = suggestions([made, other])
+    assert (first.place, first.values) == ("design.arc_radius_mm", (sp.Rational(5, 2),))
+    assert (second.place, second.values, second.why) == ("design.own_mm", (3 * m,), "three modules")

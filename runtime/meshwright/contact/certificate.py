@@ -231,10 +231,16 @@ def refined(drive, result, certificates):
     return replace(result, error=error, wheel_angles=wheel_angles, reference_error=float(reference))
 
 
+def certify_contacts(drive, result, degrees=None):
+    """The :class:`Certificates` of a TCA; ``degrees`` as of :func:`certify`."""
+    lines = [word == "line_contact" for word in result.status]
+    return certify(drive, result.angles, result.solutions, lines, degrees)
+
+
 def checked_certificates(drive, result, certificates):
     """The :class:`Certificates` of a TCA: ``certificates``, if they can be these, or made anew if they are None."""
     if certificates is None:
-        return drive.certify(result.angles, result)
+        return certify_contacts(drive, result)
     if not isinstance(certificates, Certificates) or len(certificates.records) != len(result.angles):
         raise UsageError("certificates: no proofs of these contacts; give what certify(angles, result) returns")
     return certificates
@@ -245,7 +251,7 @@ def _reference(drive, error):
     one = drive.tca([drive.design.mirror.sign * drive.design.reference_angle])
     if not abs(one.error[0] - error) < SAME:
         return error
-    return refined(drive, one, drive.certify(one.angles, one)).error[0]
+    return refined(drive, one, certify_contacts(drive, one)).error[0]
 
 
 def certify_boxes(drive, angles, centres, half_widths):

@@ -13,7 +13,12 @@ from meshwright.design.design import Design
 if TYPE_CHECKING:
     from meshwright.contact.certificate import EnclosedDesign
     from meshwright.contact.functions import Function
+    from meshwright.cycle.first_contact import SearchedFlank
+    from meshwright.cycle.path import Path
+    from meshwright.cycle.windows import Window
+    from meshwright.flank.region import Region
     from meshwright.flank.surface import Flank
+    from meshwright.flank.uses import Uses
 
 
 class DriveModel(Protocol):
@@ -76,4 +81,43 @@ class DriveModel(Protocol):
 
     def with_(self, **tables: object) -> Self:
         """The drive with keys of its design changed."""
+        ...
+
+    def of_design(self, design: Design) -> Self:
+        """The drive of another checked design."""
+        ...
+
+    @property
+    def other_side(self) -> Self | None:
+        """The drive of the same design whose flank is the other side of the teeth; None where a side has its own."""
+        ...
+
+    def teeth(self, member: str) -> int:
+        """Teeth of ``"pinion"`` or ``"wheel"``."""
+        ...
+
+    # what a room has found of the drive, and the drive keeps
+
+    @property
+    def path_start(self) -> tuple[Path | None, str]:
+        """The path of contact of a tooth pair as far as its first solution, and a status word."""
+        ...
+
+    @property
+    def window(self) -> Window:
+        """Contact of one tooth pair from begin to end."""
+        ...
+
+    @property
+    def searched_flank(self) -> SearchedFlank | None:
+        """The wheel's flank about the contacts in the middle."""
+        ...
+
+    @property
+    def uses(self) -> Uses:
+        """What contact uses of the flanks."""
+        ...
+
+    def region(self, member: str, name: str = "flank") -> Region:
+        """A surface of a member with the limits that bound it."""
         ...

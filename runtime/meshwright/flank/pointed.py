@@ -54,7 +54,7 @@ def _whole(drive):
         design, assumed = drive.design.with_whole_blank()
     except DesignError:
         return drive
-    return type(drive)(design, drive.backend) if assumed else drive
+    return drive.of_design(design) if assumed else drive
 
 
 def unknown(drive):

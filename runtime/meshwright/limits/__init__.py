@@ -69,7 +69,7 @@ def _bounded(drive):
         whole, assumed = drive.design.with_whole_blank()
     except DesignError as error:
         return drive, {}, str(error)
-    return (type(drive)(whole, drive.backend) if assumed else drive), assumed, ""
+    return (drive.of_design(whole) if assumed else drive), assumed, ""
 
 
 def contacts_of(drive, angle):

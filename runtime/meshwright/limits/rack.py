@@ -73,7 +73,7 @@ def need_right_angle(drive):
         angle = np.degrees(sizes(drive)["cutting_angle"])
         raise UsageError(
             f"section y: the cutting shaft angle is {angle:g}°; sections are planar pairs only at 90°:"
-            " set design.cutting_shaft_angle_deg=90, or leave the section out"
+            " set it to 90°, or leave the section out"
         )
 
 
