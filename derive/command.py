@@ -24,7 +24,8 @@ from derive.audit.checker.refusal import Rejected
 from derive.audit.provenance import Proved
 from derive.emit import families
 from derive.files import remove_parts, replace_text
-from derive.language.validate import DescriptionError, validate_outlines
+from derive.language.refusal import DescriptionError
+from derive.language.validate_outlines import validate_outlines
 from derive.packaged import packaged
 from derive.passes.guards import Unguarded
 from meshwright.base.compile import CompileError

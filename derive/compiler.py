@@ -23,8 +23,8 @@ from pathlib import Path
 from derive.audit.provenance import provenance
 from derive.emit import bounded, c99, certified, certify, lanes, metadata, sensitivity
 from derive.language import description
-from derive.language.validate import (
-    validate,
+from derive.language.validate import validate
+from derive.language.validate_sample import (
     validate_limits,
     validate_normals,
     validate_place,

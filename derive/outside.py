@@ -17,7 +17,7 @@ from derive.audit.checker.refusal import UNREADABLE, Rejected, Undecided
 from derive.emit import families
 from derive.files import replace_text
 from derive.language.drive import Drive
-from derive.language.validate import DescriptionError
+from derive.language.refusal import DescriptionError
 
 #: What the checker may find: it computed both sides and they agree, or they do not, or it could not compute them.
 HOLDS, FAILS, OPEN = "holds", "does not hold", "not decided"

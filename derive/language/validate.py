@@ -1,36 +1,28 @@
 """What a description must be before anything is derived from it: every name has one meaning, every limit a known one.
 
-:func:`validate` reads the description alone; :func:`validate_normals` and :func:`validate_ratio` look at a solved
-contact of the sample design, :func:`validate_limits` around it, :func:`validate_sample` at that design itself,
-:func:`validate_regions` at the places where fillets and flanks of that design join,
-:func:`validate_outlines` at what the drives of a family have together.
+:func:`validate` reads the description alone; its sample design and the outline of its family are looked at by
+:mod:`derive.language.validate_sample` and :mod:`derive.language.validate_outlines`.
 """
 
 import re
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from difflib import get_close_matches
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from math import isfinite
-from typing import Any, TypeAlias, cast
+from typing import cast
 
 import mpmath
 import sympy as sp
 
 from derive.language.definitions import Definitions
 from derive.language.differentiate import partial
-from derive.language.drive import PATH, Body, Drive, Margin, Region, Role
+from derive.language.drive import PATH, Drive, Margin, Region, Role
 from derive.language.functions import SOLID, SOLID_UNITS
-from derive.language.outline import OPTIONS, Outline
 from derive.language.printed import misnamed
-from derive.language.sampled import COMPUTED, NoValue, value_of, vanishes
+from derive.language.refusal import DescriptionError
+from derive.language.sampled import COMPUTED, vanishes
 from derive.language.surface import Surface
 from derive.language.symbols import Parameter, Quantity, Table, Unknown, foreign_unit, interface_unit, unit_suffixes
 from derive.language.vectors import Number
-
-#: The observation of a contact, by name, and its inputs.
-Observed: TypeAlias = Mapping[str, Sequence[mpmath.mpf]]
-Numbers: TypeAlias = Mapping[sp.Symbol, mpmath.mpf]
 
 #: What a point of a flank may be marked with, "" where a region has no flag of its own.
 FLAGS = ("", "undercut", "interference", "beyond_regression", "spurious_sheet", "off_tip", "off_root", "off_face",
@@ -42,26 +34,6 @@ EVENTS = ("tip", "throat", "face", "root", "tool_end", "undercut", "regression",
 
 #: Events that say by themselves what ends the surface.
 OWN_ROLES = frozenset(role.value for role in Role)
-
-
-class DescriptionError(ValueError):
-    """A description that contradicts itself; the message names the drive, the part and the remedy."""
-
-
-@dataclass(frozen=True)
-class Joint:
-    """A place where the ``region`` of a ``member`` joins the flank, on the ``flank`` of the teeth of that name.
-
-    ``normals``: cosine of the angle between both normals. ``ways``: the same of the direction into the region, across
-    the joint, and that out of the flank. ``regular``: of region and flank, what is to be positive on the real surface.
-    """
-
-    member: str
-    region: str
-    flank: str
-    normals: float
-    ways: float
-    regular: tuple[float, float]
 
 
 def validate(drive: Drive) -> None:
@@ -230,13 +202,13 @@ def _sample(drive: Drive) -> Iterator[str]:
 
 def _domains(drive: Drive) -> Iterator[str]:
     for p in drive.parameters:
-        if p.default is not None and not _within(p, p.default):
+        if p.default is not None and not within(p, p.default):
             yield f"the default {p.default} of the key {p.key!r} is outside its domain; change one of them"
         if _in_sample(p) not in drive.sample:
             continue
         given = drive.sample[_in_sample(p)]
         try:
-            inside = _within(p, sp.Rational(str(given)) * p.factor)
+            inside = within(p, sp.Rational(str(given)) * p.factor)
         except (TypeError, ValueError):
             yield f"the sample design gives {given!r} for {_in_sample(p)!r}; give a number, or leave the key out"
             continue
@@ -244,7 +216,7 @@ def _domains(drive: Drive) -> Iterator[str]:
             yield f"the sample design gives {given} for {_in_sample(p)!r}, outside its domain; change one of them"
 
 
-def _within(p: Parameter, value: sp.Expr | mpmath.mpf) -> bool:
+def within(p: Parameter, value: sp.Expr | mpmath.mpf) -> bool:
     """Whether a number, in inner units, is one that the parameter may have."""
     low, high = map(float, p.symbol.domain)
     return low < float(value) < high or p.lower_included and low == float(value)
@@ -425,7 +397,7 @@ def _expressions(drive: Drive) -> Iterator[tuple[str, Number]]:
     yield from ((f"the start of {symbol}", value) for symbol, value in drive.start.outputs.items())
     yield from (("an equation of the start", equation) for equation in drive.start.residual)
     yield from ((f"the guess of {symbol}", value) for symbol, value in drive.guess.items())
-    yield from ((f"the natural size of the unknown {u.symbol}", u.scale) for u, _ in _unknowns(drive))
+    yield from ((f"the natural size of the unknown {u.symbol}", u.scale) for u, _ in unknowns(drive))
     yield from (("the ratio", drive.ratio), ("the wheel's angle", drive.wheel_angle))
     yield ("the reference angle", drive.reference_angle)
     for member in (*drive.bodies, *drive.regions):
@@ -436,7 +408,7 @@ def _expressions(drive: Drive) -> Iterator[tuple[str, Number]]:
         yield from ((f"{r.name} of {function.name}", value) for r in function.results for value in r.values)
 
 
-def _unknowns(drive: Drive) -> Iterator[tuple[Unknown, Definitions]]:
+def unknowns(drive: Drive) -> Iterator[tuple[Unknown, Definitions]]:
     """The unknowns of contact, start and design systems, and what their natural sizes may name."""
     yield from ((u, drive.definitions) for u in (*drive.unknowns, *drive.start.unknowns))
     yield from ((u, system.definitions) for system in drive.systems for u in system.unknowns)
@@ -477,268 +449,3 @@ def _limits(drive: Drive) -> Iterator[str]:
             yield f"the {member}'s {name} has {count}; a surface has two more"
     if sp.sympify(drive.ratio).is_zero:
         yield "the ratio is zero"
-
-
-def validate_sample(drive: Drive, values: Numbers) -> None:
-    """Raise :class:`DescriptionError` for a sample design that is none of the drive's own: outside a domain once its
-    rules are applied, against a guard, or without a natural size for an unknown.
-
-    ``values``: the parameters of the sample design, completed, symbol → number.
-    """
-    for message in _of_sample(drive, values):
-        raise DescriptionError(f"{drive.name}: {message}")
-
-
-def _of_sample(drive: Drive, values: Numbers) -> Iterator[str]:
-    for p in drive.parameters:
-        if not mpmath.isnan(value := values[p.symbol]) and not _within(p, value):
-            shown = _shown(value / value_of(p.factor, values, drive.definitions))
-            yield f"the key {p.place!r} of the sample design follows as {shown}, outside its domain; {_MEND}"
-    for guard in drive.guards:
-        value = _value_at(guard.positive, values, drive.definitions)
-        if not value > 0:
-            yield (
-                f"the sample design breaks the guard {guard.message!r} of {', '.join(guard.keys)}: what must be above "
-                f"0 is {_shown(value)}; {_MEND}"
-            )
-    for u, definitions in _unknowns(drive):
-        size = _value_at(u.scale, values, definitions)
-        if not (size > 0 and mpmath.isfinite(size)):
-            yield (
-                f"the natural size of the unknown {u.symbol} is {_shown(size)} at the sample design; give one that is "
-                "above 0 at every design"
-            )
-
-
-#: What helps where a sample is no legal design.
-_MEND = "correct it, or choose another sample design"
-
-
-def _shown(value: mpmath.mpf) -> str:
-    return "no real number" if mpmath.isnan(value) else f"{float(value):.6g}"
-
-
-def _value_at(expression: Number, values: Numbers, definitions: Definitions) -> mpmath.mpf:
-    """Value of an expression, NaN where it has none."""
-    try:
-        return value_of(expression, values, definitions)
-    except NoValue:
-        return mpmath.nan
-
-
-def validate_place(drive: Drive, observed: Observed) -> None:
-    """Raise :class:`DescriptionError` where the sample's contact is none of real teeth: beyond a limit of a flank, or
-    on another sheet of its surface. Pivots are chosen there, and normals and ratio looked at.
-
-    ``observed`` as of :func:`validate_normals`. A limit without a value there is not applied.
-    """
-    for body in drive.bodies:
-        (regular,) = observed[f"regular_{body.name}"]
-        off = [f"its singular function is {_shown(regular)} there"] if regular < 0 else []
-        for m in body.margins:
-            (margin,) = observed[f"margin_{body.name}_{m.event}"]
-            off += [f"its limit {m.event!r} is {_shown(margin)} there"] if margin < 0 else []
-        if off:
-            raise DescriptionError(
-                f"{drive.name}: at the sample angle {float(drive.sample_angle):.6g} the contact is not on the "
-                f"{body.name}'s tooth: {', '.join(off)}, which must not be below 0; choose another sample angle or "
-                "design, or turn the sign of what is negative"
-            )
-
-
-#: Places at which a limit is evaluated that has no value at the contact.
-TRIED = 96
-
-
-def validate_limits(drive: Drive, observed: Observed, values: Numbers) -> None:
-    """Raise :class:`DescriptionError` for a limit that has no value anywhere, which no point would ever violate.
-
-    Arguments as of :func:`validate_normals`. Looked at are the contact and places around it and around zero, near and
-    far. A limit that needs a key which the sample leaves open is not applied, nor looked at.
-    """
-    reach = max(abs(c) for body in drive.bodies for c in observed[f"point_{body.name}"])
-    for place in (*drive.bodies, *drive.regions):
-        at: dict[sp.Symbol, mpmath.mpf] = {**values}
-        own = [*place.surface.parameters]
-        if isinstance(place, Body):
-            own += place.point
-            at |= dict(zip(place.point, observed[f"point_{place.name}"], strict=bool(place.point)))
-        for m in place.margins:
-            needed = drive.definitions.free(m.positive)
-            if any(mpmath.isnan(values[q]) for q in needed if q in values):
-                continue
-            moved = [q for q in own if q in needed]
-            places = _around(at, moved, reach)
-            if all(mpmath.isnan(_value_at(m.positive, there, drive.definitions)) for there in places):
-                where = place.name if isinstance(place, Body) else f"{place.member}'s {place.name}"
-                raise DescriptionError(
-                    f"{drive.name}: the limit {m.event!r} of the {where} is no real number, neither at the sample's "
-                    "contact nor anywhere around: it would never be applied; correct it or leave it out"
-                )
-
-
-def _around(at: Numbers, moved: Sequence[Quantity], reach: mpmath.mpf) -> Iterator[Numbers]:
-    """Places: where it is known the contact, then others within a few sizes of it and of zero, in three decades."""
-    if all(q in at for q in moved):
-        yield at
-    for k in range(1, TRIED if moved else 1):
-        there = {**at}
-        for n, q in enumerate(moved):
-            turns = k * mpmath.sqrt(sp.prime(n + 1))
-            size = (reach if q.unit == "mm" else mpmath.mpf(1)) / 10 ** (k % 3)
-            there[q] = (at.get(q, mpmath.mpf(0)) if k % 2 else 0) + size * (4 * (turns - mpmath.floor(turns)) - 2)
-        yield there
-
-
-#: Components of two opposite unit normals add up to less than this: the sample's contact is solved in many digits.
-OPPOSITE = 1e-9
-
-
-def validate_normals(drive: Drive, observed: Observed, values: Numbers) -> None:
-    """Raise :class:`DescriptionError` unless both normals point out of their bodies at the sample's contact.
-
-    ``observed`` holds the observation of that contact, name → numbers, ``values`` its inputs, symbol → number. Two
-    normals out of two bodies that touch are opposite. Along them the bodies part: where all relative curvatures have
-    one sign it is positive, and both normals turned round make it negative, since each body is then taken for the space
-    beside it. A sample that interferes in one direction and parts in the other leaves that open; there a tooth must
-    narrow towards its tip: the normal has a component towards it.
-    """
-    first, second = (observed[f"normal_{body.name}_f"] for body in drive.bodies)
-    names = " and ".join(body.name for body in drive.bodies)
-    if not _dot(first, second) < 0:
-        raise DescriptionError(
-            f"{drive.name}: the normals of {names} point the same way in contact; one points inward, or the sample's "
-            "contact lies off the teeth: choose another sample design or angle then"
-        )
-    if not max(abs(a + b) for a, b in zip(first, second, strict=True)) < OPPOSITE:
-        raise DescriptionError(
-            f"{drive.name}: the normals of {names} are not opposite where the sample's surfaces should touch: it has "
-            "no contact at its angle; choose another sample design or angle"
-        )
-    low, high = observed["curvature_gap"]
-    least = max(abs(low), abs(high)) / 10**6
-    if high < least or (low < -least and not _narrows(drive, observed, values)):
-        raise DescriptionError(
-            f"{drive.name}: both normals point inward: the bodies overlap along them (relative curvatures "
-            f"{float(low):.3g} and {float(high):.3g} per mm); turn round the surfaces from which the chains begin"
-        )
-
-
-#: Share by which a pair may transmit another ratio at one contact than over a turn: an error of motion is far smaller.
-OFF_RATIO = 0.05
-
-
-def validate_ratio(drive: Drive, observed: Observed, values: Numbers) -> None:
-    """Raise :class:`DescriptionError` unless flanks transmit the ratio of the description at the sample's contact.
-
-    Arguments as of :func:`validate_normals`.
-    """
-    pinion, wheel = (observed[f"lever_arm_{body.name}"][0] for body in drive.bodies)
-    ratio, found = float(value_of(drive.ratio, values, drive.definitions)), float(pinion / wheel)
-    if not abs(found - ratio) <= OFF_RATIO * abs(ratio):
-        raise DescriptionError(
-            f"{drive.name}: the ratio is {ratio:.6g}, but the flanks transmit {found:.6g} at the sample's "
-            "contact; give turns of the wheel per turn of the pinion: pinion teeth over wheel teeth"
-        )
-
-
-def validate_outlines(drives: Iterable[Drive]) -> None:
-    """Raise :class:`DescriptionError` for what the outlines of families, of which these are all drives, name but none
-    has.
-    """
-    families: dict[str, list[Drive]] = {}
-    for drive in drives:
-        families.setdefault(drive.family, []).append(drive)
-    for family, members in families.items():
-        outline = next((drive.outline for drive in members if drive.outline), None)
-        for message in _outline(outline(), members) if outline else ():
-            raise DescriptionError(f"outline of the family {family}: {message}")
-
-
-def _outline(outline: Outline, drives: Sequence[Drive]) -> Iterator[str]:
-    words: dict[str, set[str]] = {}
-    for key, word in ((key, word) for drive in drives for key, word in drive.variant.items()):
-        words.setdefault(key, set()).update({word} if isinstance(word, str) else ())
-    places = {f"{p.table}.{p.key}" for drive in drives for p in drive.parameters} | {f"design.{key}" for key in words}
-    known = {q.name for q in OPTIONS}
-    if unknown := outline.options.keys() - {"m", "z", "a"}:
-        yield f"the options {', '.join(sorted(unknown))} are none of m, z and a; leave them out"
-    for key, word in outline.words.items():
-        if word not in words.get(key, ()) and word:
-            yield f"{key} = {word!r} chooses no drive; {_offer(words.get(key) or words)}"
-    for s in outline.suggestions:
-        what = f"the suggestion for {s.place or s.name}"
-        if s.place and s.place not in places and s.place != "design.hand":
-            yield f"{what}: no drive has this key; {_offer(get_close_matches(s.place, places, n=1))}"
-        for key, meant in s.words.items():
-            if unknown := {*meant} - words.get(key, set()):
-                chosen = f"{key} = {', '.join(sorted(unknown))}"
-                yield f"{what}: {chosen} chooses no drive; {_offer(words.get(key) or words)}"
-        for value in (*s.values, *(s.within or ())):
-            if unknown := {str(q) for q in sp.sympify(value).free_symbols} - known:
-                yield f"{what} uses {', '.join(sorted(unknown))}, which no option and none before it gives"
-        known.add(s.symbol.name)
-
-
-def _offer(names: Iterable[str]) -> str:
-    return f"use {' or '.join(listed)}" if (listed := sorted(names)) else "leave it out"
-
-
-def validate_regions(drive: Drive, joints: Iterable[Joint]) -> None:
-    """Raise :class:`DescriptionError` unless regions that join a flank are regular where they go on from it.
-
-    One tool with a profile that has no corner there cuts both: they have one tangent plane, and normals out of one body
-    are one. The region begins where the flank ends; past a singular line a surface turns back, each of them by itself.
-    So the region is real where it goes on from a real flank, or back beside one that is past its singular line.
-    """
-    for joint in joints:
-        where = f"{drive.name}: the {joint.region} of the {joint.member}, with flank {joint.flank!r},"
-        if joint.normals < 0.0:
-            raise DescriptionError(
-                f"{where} has a normal that points into the body: at the joint it is opposite to that of the flank; "
-                "turn round the surface, where that is needed with the sign of the flank"
-            )
-        own, other = joint.regular
-        if own * other * joint.ways < 0.0:
-            raise DescriptionError(
-                f"{where} has the wrong sign of `regular`: where it {'goes on from' if joint.ways > 0 else 'turns at'} "
-                f"the flank, which is {'regular' if other > 0 else 'past its singular line'} there, `regular` times "
-                f"its singular function is {own:.3g}; give the other sign, where that is needed with that of the flank"
-            )
-
-
-def _narrows(drive: Drive, observed: Observed, values: Numbers) -> bool:
-    """Whether a tooth whose tip is a limit of its body coordinates is the narrower the nearer to it.
-
-    Where no tip is such a limit, or the teeth disagree, this decides nothing: the normals are taken as they are.
-    """
-    found = [
-        _dot(_body_normal(drive, body, observed, values), slope) < 0
-        for body in drive.bodies
-        for m in body.margins
-        if m.role is Role.TIP
-        and {*body.point} & m.positive.free_symbols
-        and (slope := _slope(drive, body, m, observed, values)) is not None
-    ]
-    return not found or any(found)
-
-
-def _body_normal(drive: Drive, body: Body, observed: Observed, values: Numbers) -> list[mpmath.mpf]:
-    turned = body.motion.inverse().direction(tuple(map(sp.Float, observed[f"normal_{body.name}_f"])))
-    return [value_of(c, values, drive.definitions) for c in turned]
-
-
-def _slope(drive: Drive, body: Body, margin: Margin, observed: Observed, values: Numbers) -> list[mpmath.mpf] | None:
-    """Gradient of a margin by the body coordinates; None where it has none or hangs on keys that the sample leaves
-    open.
-    """
-    at = {**values, **dict(zip(body.point, observed[f"point_{body.name}"], strict=True))}
-    try:
-        slope = [value_of(partial(margin.positive, q), at, drive.definitions) for q in body.point]
-    except NoValue:
-        return None
-    return slope if all(map(mpmath.isfinite, slope)) else None
-
-
-def _dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
-    return sum(p * q for p, q in zip(a, b, strict=True))

@@ -8,9 +8,10 @@ from typing import TypeAlias
 import sympy as sp
 
 from derive.language.drive import Drive, Margin
+from derive.language.refusal import DescriptionError
 from derive.language.sampled import NoValue, value_of
 from derive.language.symbols import Table
-from derive.language.validate import DescriptionError, Joint
+from derive.language.validate_sample import Joint
 from derive.passes.plan import Flank, Schedule
 from derive.passes.sample import Completion, NoSample, Values, in_double, near, solution, solve
 

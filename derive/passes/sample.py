@@ -10,8 +10,9 @@ import mpmath
 import sympy as sp
 
 from derive.language.drive import PATH, Drive
+from derive.language.refusal import DescriptionError
 from derive.language.symbols import Table
-from derive.language.validate import DescriptionError, validate_sample
+from derive.language.validate_sample import validate_sample
 from derive.passes.completion import SystemTape, lower_system
 from derive.passes.plan import Derived, Observed
 from derive.program.lowering import Lowering

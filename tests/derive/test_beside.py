@@ -5,7 +5,7 @@ import os
 import pytest
 
 from derive.beside import begun
-from derive.language.validate import DescriptionError
+from derive.language.refusal import DescriptionError
 
 
 def test_a_result_comes_back_and_changes_do_not():

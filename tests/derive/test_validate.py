@@ -14,13 +14,13 @@ from derive.language.contact import contact
 from derive.language.drive import DesignSystem, Loading, Margin, Role
 from derive.language.functions import Function, Result, solid
 from derive.language.outline import Suggestion, m
+from derive.language.refusal import DescriptionError
 from derive.language.symbols import Guard, Parameter, Quantity, Rule, Table, Unknown, parameter
-from derive.language.validate import (
-    DescriptionError,
-    validate,
+from derive.language.validate import validate
+from derive.language.validate_outlines import validate_outlines
+from derive.language.validate_sample import (
     validate_limits,
     validate_normals,
-    validate_outlines,
     validate_place,
     validate_ratio,
     validate_regions,
