@@ -18,7 +18,7 @@ from meshwright.fe.closed_body import solid_body
 from meshwright.fe.thread_flanks import threads
 from meshwright.flank.patches import triangulated
 from meshwright.sensitivity import sensitivity
-from tests.outside.folder import Commands, derived
+from tests.outside.folder import Commands
 
 pytestmark = pytest.mark.validate
 
@@ -32,8 +32,8 @@ ERRORS = {"center_distance_mm": 0.05, "shaft_angle_deg": 0.02, "axial_mm": -0.03
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return derived("hourglass_worm", tmp_path_factory.mktemp("drives"))
+def folder(derivation):
+    return derivation("hourglass_worm")
 
 
 @pytest.fixture

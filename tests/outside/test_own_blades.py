@@ -13,7 +13,7 @@ from meshwright.cli import main
 from meshwright.contact.results import ARCSEC
 from meshwright.sensitivity import sensitivity
 from tests.independent.worm import Helicoid, WormDrive, rotate, unit
-from tests.outside.folder import Commands, derived
+from tests.outside.folder import Commands
 
 pytestmark = pytest.mark.validate
 
@@ -78,8 +78,8 @@ def exact_error(tables, phi, contact):
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return derived("own_blades", tmp_path_factory.mktemp("drives"))
+def folder(derivation):
+    return derivation("own_blades")
 
 
 def tables_of(own, errors=None, **tables):
