@@ -327,6 +327,21 @@ def test_solid(case, drive):
         assert area == pytest.approx(case.area(bore, z), rel=case.within_area)
 
 
+@pytest.mark.parametrize("case", [CASES[name] for name in ("crossed_helicoids", "own_blades")], ids=lambda c: c.drive)
+def test_solid_file(case, run):
+    """The volume within the facets of a screw's body is its area in any section times its length, but for their
+    departure of 1 µm.
+    """
+    path = run.design.with_suffix(".stl")
+    run("surface", "--member", "pinion", "--solid", "--stl", path)
+    facets = np.frombuffer(path.read_bytes()[84:], dtype=np.dtype([("values", "<f4", 12), ("of", "<u2")]))
+    corners = facets["values"][:, 3:].reshape(-1, 3, 3).astype(float)
+    volume = np.sum(np.cross(corners[:, 0], corners[:, 1]) * corners[:, 2]) / 6.0
+    bore = np.hypot(corners[..., 0], corners[..., 1]).min()
+    surface = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum()
+    assert volume == pytest.approx(case.area(bore, 0.0) * np.ptp(corners[..., 2]), abs=1e-3 * surface)
+
+
 def _turn(angle):
     """Rows turned about z."""
     cosine, sine = math.cos(angle), math.sin(angle)
