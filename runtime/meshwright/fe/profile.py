@@ -90,11 +90,12 @@ class SectionCurves:
             # the other half of a plane through the axis is none of the section
             if np.all(np.abs(self.section.at(points) - wanted) < _FOUND * _SECTION_TOLERANCE):
                 return face.reshape(profile.shape), points, normals
-        return self._by_secants(wanted, profile, np.broadcast_to(self.near(values)[:, None], profile.shape))
+        return self._by_secants(wanted, profile)
 
-    def _by_secants(self, wanted: Floats, profile: Floats, near: Floats) -> tuple[Floats, Floats, Floats]:
-        """The same at section values (K, J), from face parameters (K, J)."""
-        older, newer = near, near + 1e-3
+    def _by_secants(self, wanted: Floats, profile: Floats) -> tuple[Floats, Floats, Floats]:
+        """The same at section values (K, J)."""
+        older = np.broadcast_to(self.near(wanted[:, 0])[:, None], profile.shape)
+        newer = older + 1e-3
         miss_older = self.section.at(self.surface(profile, older)[0]) - wanted
         for _ in range(_SECANT_STEPS):
             points, normals = self.surface(profile, newer)
