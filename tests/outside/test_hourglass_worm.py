@@ -191,12 +191,19 @@ def test_ratio_limits_sweep_and_report_are_written(run, tmp_path):
         (("surface", "--member", "wheel", "--region", "fillet", "--json", "-"), "no fillet of 'wheel'"),
         (("surface", "--member", "pinion", "--region", "fillet"), "its description makes flank of pinion"),
         (("surface", "--member", "pinion", "--solid", "--stl", "-"), "million facets, above 4 million"),
-        (("loaded", "--torque-nm", "50", "--set", "design.worm_threads=2"), "the pinion has no whole thread"),
+        (("loaded", "--torque-nm", "50", "--set", "design.worm_threads=2"), "from its middle is not whole: the flank"),
     ],
 )
 def test_what_its_page_does_not_describe_is_refused_with_the_reason(run, capsys, words, reason):
     run(*words, status=2)
     assert reason in capsys.readouterr().err
+
+
+def test_pairs_beyond_the_ends_of_its_thread_are_refused(run, tmp_path, capsys):
+    """Four turns from its middle the torus of its root ends before the thread does."""
+    run("fe", "--torque-nm", "50", "--phi-deg", "0", "--folder", tmp_path / "fe", status=2)
+    said = capsys.readouterr().err
+    assert "4 pitches from its middle is not whole" in said and "--pairs" in said
 
 
 @pytest.mark.parametrize(("member", "teeth"), [("pinion", 1), ("wheel", 2)])

@@ -14,6 +14,7 @@ from functools import cache
 
 import numpy as np
 
+from meshwright.base.errors import DesignError
 from meshwright.contact.placement import about_z
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.profile import Surface
@@ -142,7 +143,7 @@ def thread_teeth(
 ) -> Teeth:
     """The thread as teeth; facing (3,): a point that faces the wheel at the angle 0; pitch: angle between threads.
 
-    Raises ValueError, at first use, where a side cannot be rounded or has no land left at tip or root.
+    Raises DesignError, at first use, where a side cannot be rounded or has no land left at tip or root.
     """
     radius, azimuth = float(np.hypot(*facing[:2])), float(np.arctan2(facing[1], facing[0]))
     faces = (-HALF_PORTION * radius, HALF_PORTION * radius)
@@ -150,8 +151,12 @@ def thread_teeth(
 
     @cache
     def side(angle: float, name: SideName) -> ToothSide:
-        section = HalfPlanes(radius, azimuth - angle)
-        return rounded_side(flanks[name].at(angle), section, flanks[name].span(angle), faces, outline)
+        section, flank = HalfPlanes(radius, azimuth - angle), flanks[name]
+        try:
+            return rounded_side(flank.at(angle), section, flank.span(angle), faces, outline)
+        except ValueError as error:
+            reason = f"the thread {abs(angle) / pitch:.3g} pitches from its middle is not whole: {error}"
+            raise DesignError("blank", None, reason, "change the blank, or model fewer --pairs") from error
 
     def cut(angle: float, values: Floats) -> Floats:
         """Between the thread at this angle and its right neighbour, met a pitch later."""

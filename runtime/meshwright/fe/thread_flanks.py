@@ -69,12 +69,9 @@ def threads(drive: Drive, member: str, rim_thickness: float) -> Teeth:
     """
     sides = thread_sides(drive, member, rim_thickness)
     teeth = thread_teeth(sides.flanks, sides.working, sides.blank, drive.pitch(), sides.facing)
-    try:
-        form = teeth.at(0.0)
-        for cut in (form.left_cut, form.right_cut):
-            cut(np.array(form.faces))
-    except ValueError as error:
-        raise DesignError("blank", None, f"the {member} has no whole thread: {error}", "change its blank") from error
+    form = teeth.at(0.0)
+    for cut in (form.left_cut, form.right_cut):
+        cut(np.array(form.faces))
     return teeth
 
 
