@@ -190,7 +190,7 @@ def test_ratio_limits_sweep_and_report_are_written(run, tmp_path):
     [
         (("surface", "--member", "wheel", "--region", "fillet", "--json", "-"), "no fillet of 'wheel'"),
         (("surface", "--member", "pinion", "--region", "fillet"), "its description makes flank of pinion"),
-        (("surface", "--member", "pinion", "--solid", "--stl", "-"), "million facets, above 4 million"),
+        (("surface", "--member", "pinion", "--solid", "--stl", "-"), "million facets are off the flanks of the pinion"),
         (("loaded", "--torque-nm", "50", "--set", "design.worm_threads=2"), "from its middle is not whole: the flank"),
     ],
 )

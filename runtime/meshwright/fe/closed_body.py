@@ -33,7 +33,7 @@ _AnySide = TypeVar("_AnySide", bound=Side)
 
 # Rows over flank and face from which the refinement of facets starts, and at which it ends.
 _FEWEST, _MOST = (8, 16), (96, 4096)
-# More facets than this, a file of 200 MB, are refused.
+# More facets than this, a file of 200 MB, are refused where they are not within the departure all the same.
 _MOST_FACETS = 4_000_000
 # The same for B-splines; how far they may be from tips, root lands and end faces of the blank, mm.
 _FIRST, _LAST, _ON_BLANK = Rows(8, 6, 8, 3, 3), 1024, 5e-7
@@ -72,12 +72,13 @@ class Body:
     def faceted(self, departure: float) -> ClosedBody:
         """Its closed surface of triangles, with flanks within a departure in mm if that takes not too many rows.
 
-        Raises UsageError for more facets than anyone wants.
+        Raises UsageError where so many facets do not suffice.
         """
         with _whole(self.tooth.name):
             grid, reached = _fine_enough(self.tooth, departure)
             patches = self._patches(grid)
-            _check_facets(self.tooth.name, patches, departure)
+            if reached > departure:
+                _check_facets(self.tooth.name, patches, reached, departure)
             points, triangles = triangulated(patches)
             _check_closed(triangles)
         return ClosedBody(points, triangles, volume(points, triangles), reached, self.teeth)
@@ -420,14 +421,13 @@ def _off(tooth: Tooth, patch: Patch) -> tuple[Floats, Floats]:
     return np.zeros(points.shape[:2]), np.abs(tooth.sections.height(found) - tooth.sections.height(points))
 
 
-def _check_facets(member: str, patches: list[Patch], departure: float) -> None:
-    """Refuse patches of which too many facets would be made."""
+def _check_facets(member: str, patches: list[Patch], reached: float, departure: float) -> None:
+    """Refuse patches of which too many facets would be made that are not within the departure, mm."""
     count = sum(2 * (len(p.points) - 1) * (p.points.shape[1] - 1) for p in patches)
     if count > _MOST_FACETS:
         raise UsageError(
-            f"--stl: flanks of the {member} within {1000.0 * departure:g} µm take {count / 1e6:.3g} million facets, "
-            f"above {_MOST_FACETS / 1e6:g} million: the body is long, or winds often; write its B-spline "
-            "faces with --step, or, of a gear, fewer teeth with --teeth"
+            f"--stl: {count / 1e6:.3g} million facets are off the flanks of the {member} by {1000.0 * reached:.3g} µm, "
+            f"not {1000.0 * departure:g} µm: the body is long and winds often; write its B-spline faces with --step"
         )
 
 
