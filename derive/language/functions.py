@@ -13,6 +13,7 @@ undercut_place_M     of a surface's parameters: the place on the tool, a result 
 profile_pinion, profile_tool, profile_range_…, generation, section, tool_point, second_type, meshing_axes, rack_sizes
                      generation of the wheel by a helicoid: see :mod:`derive.drives.rack_and_pinion`
 solid_M              sizes of the solid teeth of a member: see :func:`solid`
+outline_M            tip and root of a thread, where they are no cones: see :func:`outline`
 tool_clearance       sizes of a tool of revolution that passes over finished teeth: see :class:`ToolClearance`
 """
 
@@ -22,8 +23,10 @@ from dataclasses import dataclass
 import sympy as sp
 
 from derive.language import vectors as v
+from derive.language.differentiate import partial
+from derive.language.replace import replaced
 from derive.language.symbols import Quantity
-from derive.language.vectors import Number
+from derive.language.vectors import Number, Vector
 
 
 @dataclass(frozen=True)
@@ -103,9 +106,10 @@ def solid(member: str, sizes: Mapping[str, tuple[Number, str]]) -> Function:
     A wheel whose fillet is an envelope of three parameters: ``teeth``, ``face_first``, ``face_last``.
 
     A thread (``tip_radius`` says that it is one): ``tip_radius``, ``root_radius`` at z = 0, ``rounding`` between flank
-    and root, ``taper`` (growth of both radii along z). ``span_root``, ``span_middle`` and ``span_tip`` are profile
-    parameters below the root, in the middle and beyond the tip; without them the margins of the flank say it. Where
-    flanks have designs of their own: ``thickness`` along the axis at the middle, ``screw_parameter``.
+    and root, ``taper`` (growth of both radii along z) unless :func:`outline` says how they go on. ``span_root``,
+    ``span_middle`` and ``span_tip`` are profile parameters below the root, in the middle and beyond the tip; without
+    them the margins of the flank say it, or the outline. Where flanks have designs of their own: ``thickness`` along
+    the axis at the middle, ``screw_parameter``.
     """
     return Function(
         f"{SOLID}{member}",
@@ -113,6 +117,31 @@ def solid(member: str, sizes: Mapping[str, tuple[Number, str]]) -> Function:
         (),
         tuple(Result(name, (sp.sympify(value),), unit) for name, (value, unit) in sizes.items()),
     )
+
+
+#: How names of functions begin that say where a thread ends.
+OUTLINE = "outline_"
+
+
+def outline(member: str, point: Vector, tip: sp.Expr, root: sp.Expr) -> Function:
+    """The function ``outline_<member>``: tip and root of a thread that are surfaces of revolution about its axis.
+
+    ``tip`` and ``root`` are margins, positive on the thread, of the coordinates ``point`` of its body. The results are
+    both at a distance from the axis and a position along it, and the slopes of the root's by these two.
+    """
+    radius = Quantity(f"radius_on_{member}", "mm", f"distance from the axis of the {member}", member)
+    along = Quantity(f"position_on_{member}", "mm", f"position along the axis of the {member}", member)
+    here = dict(zip(point, (radius, sp.Integer(0), along), strict=True))
+    above, below = replaced(root, here), replaced(tip, here)
+    return Function(
+        f"{OUTLINE}{member}",
+        f"how far a place is below the tip and above the root of the {member}",
+        (radius, along),
+        (
+            Result("tip", (below,)), Result("root", (above,)),
+            Result("root_slopes", (partial(above, radius), partial(above, along))),
+        ),
+    )  # fmt: skip
 
 
 def both_turns(a: sp.Expr, b: sp.Expr, c: sp.Expr) -> tuple[sp.Expr, sp.Expr]:

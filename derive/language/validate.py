@@ -16,7 +16,7 @@ import sympy as sp
 from derive.language.definitions import Definitions
 from derive.language.differentiate import partial
 from derive.language.drive import PATH, Drive, Margin, Region, Role
-from derive.language.functions import SOLID, SOLID_UNITS
+from derive.language.functions import OUTLINE, SOLID, SOLID_UNITS
 from derive.language.printed import misnamed
 from derive.language.refusal import DescriptionError
 from derive.language.sampled import COMPUTED, vanishes
@@ -336,6 +336,9 @@ def _solids(drive: Drive) -> Iterator[str]:
         member = function.name.removeprefix(SOLID)
         if member not in (names := [body.name for body in drive.bodies]):
             yield f"{function.name} is of no member; use {' or '.join(SOLID + name for name in names)}"
+        given = {r.name for r in function.results} | {f.name for f in drive.functions}
+        if "tip_radius" in given and not given & {"taper", OUTLINE + member}:
+            yield f"{function.name} is of a thread with neither a taper nor the function {OUTLINE}{member}; give one"
         for r in function.results:
             where = f"the size {r.name!r} of {function.name}"
             if (unit := SOLID_UNITS.get(r.name)) is None:

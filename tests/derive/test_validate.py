@@ -177,6 +177,9 @@ CASES = {
     "size of a solid in another unit": (
         lambda d: _with_solid(d, "wheel", module=(1, "rad")), "'module' of solid_wheel is in 'rad'; give it in 'mm'"
     ),
+    "thread that ends nowhere": (
+        lambda d: _with_solid(d, "pinion", tip_radius=(1, "mm")), "neither a taper nor the function outline_pinion"
+    ),
     "end of a flank in another unit than the flank": (
         lambda d: _with_solid(d, "wheel", tip_last=(1, "rad")), "'tip_last' of solid_wheel is in 'rad'; give it in 'mm'"
     ),

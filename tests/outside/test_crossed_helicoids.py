@@ -17,7 +17,7 @@ from meshwright.contact.results import ARCSEC
 from meshwright.design import design as designs
 from meshwright.sensitivity import sensitivity
 from tests.embedding import compile as c
-from tests.outside.folder import Commands, derived
+from tests.outside.folder import Commands
 
 pytestmark = pytest.mark.validate
 
@@ -38,8 +38,8 @@ TABLES = {
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return derived("crossed_helicoids", tmp_path_factory.mktemp("drives"))
+def folder(derivation):
+    return derivation("crossed_helicoids")
 
 
 @pytest.fixture

@@ -15,9 +15,10 @@ from meshwright import Drive
 from meshwright.contact.results import ARCSEC
 from meshwright.design import design as designs
 from meshwright.fe.closed_body import solid_body
+from meshwright.fe.thread_flanks import threads
 from meshwright.flank.patches import triangulated
 from meshwright.sensitivity import sensitivity
-from tests.outside.folder import Commands, derived
+from tests.outside.folder import Commands
 
 pytestmark = pytest.mark.validate
 
@@ -26,12 +27,13 @@ DESIGN = {
     "pressure_angle_deg": 22.0, "tooth_inclination_deg": 8.0, "wheel_crowning_per_mm": 0.001,
 }  # fmt: skip
 TABLES = {"drive": "hourglass-worm", "name": "hourglass", "design": DESIGN}
+ALPHA, BETA = math.radians(22.0), math.radians(8.0)
 ERRORS = {"center_distance_mm": 0.05, "shaft_angle_deg": 0.02, "axial_mm": -0.03}
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return derived("hourglass_worm", tmp_path_factory.mktemp("drives"))
+def folder(derivation):
+    return derivation("hourglass_worm")
 
 
 @pytest.fixture
@@ -187,7 +189,9 @@ def test_ratio_limits_sweep_and_report_are_written(run, tmp_path):
     ("words", "reason"),
     [
         (("surface", "--member", "wheel", "--region", "fillet", "--json", "-"), "no fillet of 'wheel'"),
-        (("loaded", "--torque-nm", "50"), "no sizes of solid teeth"),
+        (("surface", "--member", "pinion", "--region", "fillet"), "its description makes flank of pinion"),
+        (("surface", "--member", "pinion", "--solid", "--stl", "-"), "million facets are off the flanks of the pinion"),
+        (("loaded", "--torque-nm", "50", "--set", "design.worm_threads=2"), "from its middle is not whole: the flank"),
     ],
 )
 def test_what_its_page_does_not_describe_is_refused_with_the_reason(run, capsys, words, reason):
@@ -195,9 +199,16 @@ def test_what_its_page_does_not_describe_is_refused_with_the_reason(run, capsys,
     assert reason in capsys.readouterr().err
 
 
+def test_pairs_beyond_the_ends_of_its_thread_are_refused(run, tmp_path, capsys):
+    """Four turns from its middle the torus of its root ends before the thread does."""
+    run("fe", "--torque-nm", "50", "--phi-deg", "0", "--folder", tmp_path / "fe", status=2)
+    said = capsys.readouterr().err
+    assert "4 pitches from its middle is not whole" in said and "--pairs" in said
+
+
 @pytest.mark.parametrize(("member", "teeth"), [("pinion", 1), ("wheel", 2)])
-def test_its_margins_alone_make_closed_bodies(drive, member, teeth):
-    """The worm lies in the torus that its wheel's tip clears, to its ends; the wheel between its own cylinders."""
+def test_its_margins_make_closed_bodies(drive, member, teeth):
+    """The worm lies between the tori of its tip and root, to its ends; the wheel between its own cylinders."""
     patches, departure = solid_body(drive(), member, teeth).splined(1e-3)
     _, triangles = triangulated(patches)
     there = np.concatenate([triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])])
@@ -212,6 +223,80 @@ def test_its_margins_alone_make_closed_bodies(drive, member, teeth):
     else:
         least, most, height_of = 100.0 - 1.2 * height, 100.0 + height, radius
     assert (height_of.min(), height_of.max()) == pytest.approx((least, most), abs=1e-6)
+
+
+def _envelope(points, sign):
+    """How far points (N, 3) of the worm are from the nearest plane that is its tool's at some angle, and leave it.
+
+    Beside it is none that is deeper: the depth over the angle is stationary there.
+    """
+    half = math.pi / 80
+    normal = np.array([-math.sin(ALPHA), sign * math.cos(ALPHA) * math.cos(BETA),
+                       sign * math.cos(ALPHA) * math.sin(BETA)])  # fmt: skip
+    foot = np.array([-100.0 * math.cos(half), 100.0 * sign * math.sin(half), 0.0])
+
+    def depth(theta):
+        """Of points in the wheel's frame, the inverse of Twin.into_worm."""
+        x, y, z = points.T if theta.ndim == 1 else points.T[:, :, None]
+        c, s = np.cos(theta), np.sin(theta)
+        x, y, z = x * c - y * s - 125.0, -z, x * s + y * c
+        c, s = np.cos(theta / 40.0), np.sin(theta / 40.0)
+        found = np.stack([x * c - y * s, x * s + y * c, z], axis=-1)
+        return (found - foot) @ normal
+
+    step = 1e-4
+    grid = -np.arctan2(points[:, 1], points[:, 0])[:, None] + np.linspace(-30.0, 30.0, 6001)
+    values = depth(grid)
+    turns = np.diff(np.sign(np.diff(values, axis=1)), axis=1) != 0.0
+    away = np.where(turns, np.abs(values[:, 1:-1]), np.inf)
+    theta = np.take_along_axis(grid[:, 1:-1], away.argmin(axis=1)[:, None], axis=1)[:, 0]
+    for _ in range(8):
+        low, here, high = (depth(theta + h) for h in (-step, 0.0, step))
+        theta = theta - (high - low) * step / (2.0 * (high - 2.0 * here + low))
+    return np.abs(depth(theta))
+
+
+def _above(points):
+    """Distance of points (..., 3) from the circle in which the wheel's axis would stand about the worm's, mm."""
+    return np.hypot(125.0 - np.hypot(points[..., 0], points[..., 1]), points[..., 2])
+
+
+@pytest.mark.parametrize("angle", [-20.0, 0.0, 8.0])
+def test_its_thread_goes_from_an_arc_on_the_torus_of_its_root_to_that_of_its_tip(drive, angle):
+    """In half planes, at the throat and near both ends; the flanks between are the envelope of the plane."""
+    form = threads(drive(), "pinion", 10.0).at(angle)
+    values, height, rounding = np.linspace(*form.faces, 5), 3.5, 1.0
+    for name, sign in (("right", 1.0), ("left", -1.0)):
+        side = form.side(name)
+        arcs = side.fillet.points(values, np.tile(np.linspace(0.0, 1.0, 7), (5, 1)))
+        ends = np.stack([side.flank.first(values), side.flank.last(values)], axis=1)
+        flank = side.flank.points(values, ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * np.linspace(0.0, 1.0, 9))
+        assert _above(arcs[:, 0]) == pytest.approx(100.0 + 1.2 * height, abs=1e-9)
+        assert _above(flank[:, -1]) == pytest.approx(100.0 - height, abs=1e-9)
+        assert np.abs(arcs[:, -1] - flank[:, 0]).max() < 1e-6
+        plane = [np.stack([np.hypot(p[..., 0], p[..., 1]), p[..., 2]], axis=-1) for p in (arcs, flank)]
+        inward = np.array([125.0, 0.0]) - plane[0][:, 0]
+        centres = plane[0][:, 0] + rounding * inward / np.linalg.norm(inward, axis=1)[:, None]
+        away = [np.linalg.norm(p - centres[:, None], axis=2) for p in plane]
+        assert away[0] == pytest.approx(rounding, abs=1e-6)
+        # flank and arc have one tangent, at right angles to the radius of the arc
+        step = np.linalg.norm(plane[1][:, 1] - plane[1][:, 0], axis=1)
+        assert away[1][:, 1] == pytest.approx(np.hypot(rounding, step), rel=5e-3)
+        assert _envelope(flank.reshape(-1, 3), sign).max() < 1e-6
+
+
+def test_under_load_its_pairs_carry_the_torque_at_the_pressure_of_hertz(run):
+    """Levers about the wheel's axis are those of the rigid contacts, each pair a turn of the worm after the next."""
+    (point,) = run.json("loaded", "--torque-nm", 50, "--phi-deg", 0)["points"]
+    pairs = [pair for pair in point["pairs"] if pair["force_n"] > 0.0]
+    angles = [-360.0 * pair["pairs_later"] for pair in pairs]
+    rigid = run.json("tca", f"--phi-deg={','.join(map(str, angles))}")["points"]
+    total = 0.0
+    for pair, contact in zip(pairs, rigid, strict=True):
+        arm = np.cross(np.array(contact["contact_point_mm"]) - [125.0, 0.0, 0.0], contact["contact_normal"])[1]
+        total += pair["force_n"] * abs(arm)
+        assert pair["peak_pressure_mpa"] == pytest.approx(pair["hertz_pressure_mpa"], rel=0.01)
+    assert len(pairs) == 3 and total == pytest.approx(50_000.0, rel=1e-4)
 
 
 def test_the_audit_entry_says_what_is_proved(folder):

@@ -6,14 +6,17 @@ import math
 import mpmath as mp
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from meshwright import Drive
 from meshwright.base.errors import DesignError
 from meshwright.cli import main
 from meshwright.contact.results import ARCSEC
+from meshwright.design import design as designs
 from meshwright.sensitivity import sensitivity
 from tests.independent.worm import Helicoid, WormDrive, rotate, unit
-from tests.outside.folder import Commands, derived
+from tests.outside.folder import Commands
+from tests.worm.hob_tip import Balls
 
 pytestmark = pytest.mark.validate
 
@@ -78,8 +81,8 @@ def exact_error(tables, phi, contact):
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return derived("own_blades", tmp_path_factory.mktemp("drives"))
+def folder(derivation):
+    return derivation("own_blades")
 
 
 def tables_of(own, errors=None, **tables):
@@ -155,6 +158,36 @@ def test_casadi_the_left_hand_and_the_sensitivity_to_the_own_key_agree_with_fort
         moved = tables | {"design": tables["design"] | {key: own[key] + change}}
         ends.append(exact_error(moved, phi, drive(moved).tca([phi])))
     assert found.error[0, found.of(f"design.{key}")] == pytest.approx((ends[1] - ends[0]) / 2e-6, rel=1e-6)
+
+
+def balls_of(tables, rounding):
+    """Balls of a radius between the hob's own flank and the cylinder of its tip, as it cuts the wheel."""
+    twin, d = WormDrive.of(tables), tables["design"]
+    hob = Own(**{f.name: getattr(twin.hob, f.name) for f in dataclasses.fields(Helicoid)},
+              own=(mp.mpf(d["hob_blade_crown_per_mm"]),))  # fmt: skip
+
+    def centre(t):
+        with mp.workdps(40):
+            point, normal = hob.profile(mp.mpf(t))
+            return np.array([float(p - rounding * n) for p, n in zip(point, normal, strict=True)])
+
+    tip = d["hob_pitch_radius_mm"] + tables["blank"]["hob_tip_addendum_mm"]
+    t = brentq(lambda t: np.hypot(*centre(t)[:2]) - tip + rounding, tip - 3.0 * rounding, tip)
+    balls = object.__new__(Balls)
+    balls.centre, balls.screw, balls.ratio = centre(t), float(hob.p), twin.hob_threads / twin.teeth
+    balls.distance, balls.angle = float(twin.A_gen), float(twin.sigma_gen)
+    return balls
+
+
+def test_the_fillet_of_the_wheel_is_swept_by_balls_at_the_tip_of_its_hob(folder, tmp_path):
+    """Points as far from the nearest place of a ball's centre as the rounding says."""
+    tables = tables_of(CROWNED)
+    path = tmp_path / "design.toml"
+    path.write_text(designs.toml_text(tables | {"blank": BLANK | {"hob_tip_rounding_mm": 0.8}}), encoding="utf-8")
+    shown = Commands(folder, path).json("surface", "--member", "wheel", "--region", "fillet", "--grid", "3x4")
+    balls, points = balls_of(tables, 0.8), [point for point in shown["points_mm"] if point]
+    assert len(points) == 12
+    assert [balls.nearest(np.array(point)) for point in points] == pytest.approx([0.8] * 12, abs=1e-9)
 
 
 def test_windows_of_contact_and_a_first_design(folder, tmp_path):

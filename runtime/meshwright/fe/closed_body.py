@@ -33,6 +33,8 @@ _AnySide = TypeVar("_AnySide", bound=Side)
 
 # Rows over flank and face from which the refinement of facets starts, and at which it ends.
 _FEWEST, _MOST = (8, 16), (96, 4096)
+# More facets than this, a file of 200 MB, are refused where they are not within the departure all the same.
+_MOST_FACETS = 4_000_000
 # The same for B-splines; how far they may be from tips, root lands and end faces of the blank, mm.
 _FIRST, _LAST, _ON_BLANK = Rows(8, 6, 8, 3, 3), 1024, 5e-7
 # The rim is as deep below the root as the teeth are high, so many times.
@@ -68,10 +70,16 @@ class Body:
     flip: Floats | None
 
     def faceted(self, departure: float) -> ClosedBody:
-        """Its closed surface of triangles, with flanks within a departure in mm if that takes not too many."""
+        """Its closed surface of triangles, with flanks within a departure in mm if that takes not too many rows.
+
+        Raises UsageError where so many facets do not suffice.
+        """
         with _whole(self.tooth.name):
             grid, reached = _fine_enough(self.tooth, departure)
-            points, triangles = triangulated(self._patches(grid))
+            patches = self._patches(grid)
+            if reached > departure:
+                _check_facets(self.tooth.name, patches, reached, departure)
+            points, triangles = triangulated(patches)
             _check_closed(triangles)
         return ClosedBody(points, triangles, volume(points, triangles), reached, self.teeth)
 
@@ -324,15 +332,15 @@ def volume(points: Floats, triangles: Ints) -> float:
 def _fine_enough(tooth: Tooth, departure: float) -> tuple[Grid, float]:
     """The tooth at steps with which the facets of its flanks are within ``departure``, and how far they are."""
     flank, along = _FEWEST
-    pieces = len(tooth.ends) - 1
+    most = _MOST[0], _MOST[1] // (len(tooth.ends) - 1)
     while True:
         grid = tooth.grid(Rows(2 * along, 2, 2 * flank, 1, 1))
         found = [facet_departures(points, normals) for _, points, normals in (grid.low, grid.high)]
         across, by_length, reached = np.max(found, axis=0)
-        finer = finer_rows((flank, along), (across, max(by_length, reached - across)), departure, _MOST)
+        finer = finer_rows((flank, along), (across, max(by_length, reached - across)), departure, most)
         if reached <= departure or finer == (flank, along):
             break
-        flank, along = finer[0], min(finer[1], _MOST[1] // pieces)
+        flank, along = finer
     bore = tooth.sections.points(grid.values, tooth.bore(grid.values), 0.0)
     radius = max(float(np.hypot(of[..., 0], of[..., 1]).max()) for of in (grid.low[1], bore))
     step = np.sqrt(8.0 * departure / radius)
@@ -411,6 +419,16 @@ def _off(tooth: Tooth, patch: Patch) -> tuple[Floats, Floats]:
     if patch.kind in ("flank", "fillet"):
         return np.linalg.norm(found - points, axis=2), np.zeros(points.shape[:2])
     return np.zeros(points.shape[:2]), np.abs(tooth.sections.height(found) - tooth.sections.height(points))
+
+
+def _check_facets(member: str, patches: list[Patch], reached: float, departure: float) -> None:
+    """Refuse patches of which too many facets would be made that are not within the departure, mm."""
+    count = sum(2 * (len(p.points) - 1) * (p.points.shape[1] - 1) for p in patches)
+    if count > _MOST_FACETS:
+        raise UsageError(
+            f"--stl: {count / 1e6:.3g} million facets are off the flanks of the {member} by {1000.0 * reached:.3g} µm, "
+            f"not {1000.0 * departure:g} µm: the body is long and winds often; write its B-spline faces with --step"
+        )
 
 
 def _check_closed(triangles: Ints) -> None:

@@ -36,19 +36,20 @@ class _Generated:
         q = pierced(self.flank, feet, plane, np.array(start))
         return q[:, 0], q[:, 1], self.flank(q).points
 
-    def on_sections(self, profile: Floats, factors: Floats, values: Floats, start: float) -> tuple[Floats, ...]:
-        found = self.flank(on_sections(self.flank, profile, factors, values, np.array([0.0, start])))
+    def on_sections(self, profile: Floats, factors: Floats, values: Floats, start: Floats) -> tuple[Floats, ...]:
+        near = np.stack([profile, start], axis=1)
+        found = self.flank(on_sections(self.flank, profile, factors, values, near))
         return found.parameters[:, 1], found.points, found.normals
 
 
 def on_sections(flank: Flank, profile: Floats, sections: Floats, values: Floats, start: Floats) -> Floats:
-    """Parameters (N, k), from nearby ones (k,), with given first ones (N,) where x, y, z and the distance from the axis
-    with factors (N, 4) add up to values (N,).
+    """Parameters (N, k), from nearby ones (N, k), with given first ones (N,) where x, y, z and the distance from the
+    axis with factors (N, 4) add up to values (N,).
     """
-    count, k = len(profile), len(start)
-    factors, near = np.zeros((count, 2, k + 4)), np.tile(start, (count, 1))
-    factors[:, 0, 0], factors[:, 1, k:], near[:, 0] = 1.0, sections, profile
-    return flank.places(factors, flank.sizes, np.stack([profile, values], axis=1), near)
+    count, k = start.shape
+    factors = np.zeros((count, 2, k + 4))
+    factors[:, 0, 0], factors[:, 1, k:] = 1.0, sections
+    return flank.places(factors, flank.sizes, np.stack([profile, values], axis=1), start)
 
 
 def pierced(flank: Flank, feet: Floats, plane: Floats, start: Floats) -> Floats:
@@ -99,7 +100,7 @@ class _Turned(_TurnedRows):
         profile, face, points = self.surface.pierced(feet @ back, plane @ back, (start[0], start[1] - self.shift))
         return profile, face + self.shift, points @ self.rotation
 
-    def on_sections(self, profile: Floats, factors: Floats, values: Floats, start: float) -> tuple[Floats, ...]:
+    def on_sections(self, profile: Floats, factors: Floats, values: Floats, start: Floats) -> tuple[Floats, ...]:
         turned_back = np.column_stack([factors[:, :3] @ self.rotation.T, factors[:, 3]])
         face, *found = self.surface.on_sections(profile, turned_back, values, start - self.shift)
         return face + self.shift, *(of @ self.rotation for of in found)

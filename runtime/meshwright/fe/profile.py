@@ -47,10 +47,10 @@ class Section(Protocol):
 class Cut(Smooth, Protocol):
     """A surface that also tells where sections of a tooth cut it."""
 
-    def on_sections(self, profile: Floats, factors: Floats, values: Floats, start: float) -> tuple[Floats, ...]:
+    def on_sections(self, profile: Floats, factors: Floats, values: Floats, start: Floats) -> tuple[Floats, ...]:
         """Face parameter (N,), points and outward unit normals (N, 3) at profile parameters (N,) where x, y, z and the
-        distance from the axis with ``factors`` (N, 4) add up to ``values`` (N,), from a nearby face parameter; not a
-        number where there are none.
+        distance from the axis with ``factors`` (N, 4) add up to ``values`` (N,), from nearby face parameters (N,); not
+        a number where there are none.
         """
         ...
 
@@ -67,13 +67,15 @@ class SectionCurves:
     """The curves that sections cut from a surface, from a first to a last value of its profile parameter.
 
     surface: (profile parameter, face parameter) to points and normals.  section: the coordinate held on a section.
-    first, last: profile parameter at the ends, as functions of the section values (K,) (root end, tip end).
+    first, last: profile parameter at the ends, as functions of the section values (K,) (root end, tip end).  near: face
+    parameter near which sections cut the surface, as such a function too.
     """
 
     surface: Surface
     section: Section
     first: Callable[[Floats], Floats]
     last: Callable[[Floats], Floats]
+    near: Callable[[Floats], Floats] = np.zeros_like
 
     def places(self, values: Floats, profile: Floats) -> tuple[Floats, Floats, Floats]:
         """Face parameter, shape of ``profile`` (K, J), where the section coordinate is ``values`` (K,), and points and
@@ -82,7 +84,8 @@ class SectionCurves:
         wanted = np.broadcast_to(values[:, None], profile.shape)
         if isinstance(self.surface, Cut):
             factors, sums = (np.repeat(of, profile.shape[1], axis=0) for of in self.section.factors(values))
-            face, *found = self.surface.on_sections(profile.ravel(), factors, sums, 0.0)
+            start = np.repeat(self.near(values), profile.shape[1])
+            face, *found = self.surface.on_sections(profile.ravel(), factors, sums, start)
             points, normals = (of.reshape(*profile.shape, 3) for of in found)
             # the other half of a plane through the axis is none of the section
             if np.all(np.abs(self.section.at(points) - wanted) < _FOUND * _SECTION_TOLERANCE):
@@ -91,7 +94,8 @@ class SectionCurves:
 
     def _by_secants(self, wanted: Floats, profile: Floats) -> tuple[Floats, Floats, Floats]:
         """The same at section values (K, J)."""
-        older, newer = np.zeros_like(profile), np.full_like(profile, 1e-3)
+        older = np.broadcast_to(self.near(wanted[:, 0])[:, None], profile.shape)
+        newer = older + 1e-3
         miss_older = self.section.at(self.surface(profile, older)[0]) - wanted
         for _ in range(_SECANT_STEPS):
             points, normals = self.surface(profile, newer)

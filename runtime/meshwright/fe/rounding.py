@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
+from functools import partial
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -22,12 +22,47 @@ from meshwright.fe.tooth import ToothSide
 _SAMPLES = 17
 
 
-class Span(NamedTuple):
-    """Profile parameters of a flank at its deepest, at its middle and beyond its tip."""
+@dataclass(frozen=True)
+class Span:
+    """Profile parameters (...,) of a flank at its deepest, at its middle and beyond its tip, as functions of its face
+    parameter (...,).
+    """
 
-    root: float
-    middle: float
-    tip: float
+    root: Callable[[Floats], Floats]
+    middle: Callable[[Floats], Floats]
+    tip: Callable[[Floats], Floats]
+
+    @classmethod
+    def constant(cls, root: float, middle: float, tip: float) -> Span:
+        """The same all along the flank."""
+        return cls(constant(root), constant(middle), constant(tip))
+
+    def counted_from(self, shift: float) -> Span:
+        """The same as functions of a face parameter that is larger by ``shift``."""
+        return Span(*(partial(_shifted, of, shift) for of in (self.root, self.middle, self.tip)))
+
+    def on(self, surface: Surface, section: Section, values: Floats) -> tuple[Floats, Floats, Floats]:
+        """The three (K,) where sections ``values`` (K,) cut the surface; ValueError where they do not."""
+        root, middle, tip = self.faces(surface, section, values)
+        return self.root(root), self.middle(middle), self.tip(tip)
+
+    def faces(self, surface: Surface, section: Section, values: Floats) -> tuple[Floats, Floats, Floats]:
+        """The face parameters (K,) of these."""
+        root, middle, tip = (_faces(surface, section, values, of) for of in (self.root, self.middle, self.tip))
+        return root, middle, tip
+
+
+def _shifted(of: Callable[[Floats], Floats], shift: float, face: Floats) -> Floats:
+    return of(face - shift)
+
+
+def _faces(surface: Surface, section: Section, values: Floats, of: Callable[[Floats], Floats]) -> Floats:
+    """The face parameter (K,) of a line along a flank where sections (K,) cut it."""
+
+    def line(_: Floats, face: Floats) -> tuple[Floats, Floats]:
+        return surface(of(face), face)
+
+    return SectionCurves(line, section, of, of).solve(values, np.zeros((len(values), 1)))[:, 0]
 
 
 @dataclass(frozen=True)
@@ -69,13 +104,14 @@ def rounded_side(
     Raises ValueError where the flank does not reach the tip.
     """
     values = np.linspace(*faces, _SAMPLES)
-    whole = SectionCurves(surface, section, constant(span.root), constant(span.tip))
+    root, middle, end = span.on(surface, section, values)
+    whole = SectionCurves(surface, section, CubicSpline(values, root), CubicSpline(values, end))
     arcs = _Arcs(whole, outline)
-    tip = _tip_line(whole, values, (span.middle, span.tip), outline.below_tip)
-    joint = np.full_like(values, span.root)
+    tip = _tip_line(whole, values, (middle, end), outline.below_tip)
+    joint = root.copy()
     reaches = arcs.overlap(joint, values) < 0.0
     if reaches.any():
-        joint[reaches] = crossing(arcs.overlap, values[reaches], (span.root, span.middle))
+        joint[reaches] = crossing(arcs.overlap, values[reaches], (root[reaches], middle[reaches]))
     joint_of = CubicSpline(values, joint)
     flank = SectionCurves(surface, section, joint_of, tip)
     fillet = OfSections(arcs.surface(joint_of), section, constant(0.0), constant(1.0))
@@ -83,17 +119,17 @@ def rounded_side(
 
 
 def _tip_line(
-    flank: SectionCurves, values: Floats, ends: tuple[float, float], below_tip: Callable[[Floats], Floats]
+    flank: SectionCurves, values: Floats, ends: tuple[Floats, Floats], below_tip: Callable[[Floats], Floats]
 ) -> CubicSpline:
-    """Profile parameter between ``ends`` where a section meets the tip, for sections between the ``values`` (K,).
+    """Profile parameter between ``ends`` (K,) where a section meets the tip, for sections between the ``values`` (K,).
 
     below_tip: points (..., 3) to the height (...,) left. Raises ValueError where the flank does not reach the tip.
     """
     return CubicSpline(values, crossing(lambda u, s: below_tip(_at(flank, s, u)[0]), values, ends))
 
 
-def crossing(function: Callable[[Floats, Floats], Floats], values: Floats, ends: tuple[float, float]) -> Floats:
-    """Profile parameter (K,) between ``ends`` at which the function of it and of the section (K,) vanishes.
+def crossing(function: Callable[[Floats, Floats], Floats], values: Floats, ends: tuple[Floats, Floats]) -> Floats:
+    """Profile parameter (K,) between ``ends`` (K,) at which the function of it and of the section (K,) vanishes.
 
     Raises ValueError where it does not.
     """

@@ -14,6 +14,7 @@ from functools import cache
 
 import numpy as np
 
+from meshwright.base.errors import DesignError
 from meshwright.contact.placement import about_z
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.profile import Surface
@@ -21,44 +22,114 @@ from meshwright.fe.rounding import Outline, Span, rounded_side
 from meshwright.fe.tooth import SideName, Teeth, ToothForm, ToothSide, middle_of_land, moved
 
 # The portion reaches so far to either side of the azimuth that faces the wheel.
-_HALF_PORTION = np.radians(75.0)
+HALF_PORTION = np.radians(75.0)
+
+# Steps in which a place on the root is found, and how little, mm, the last one moves it.
+_ROOT_STEPS, _ON_ROOT = 60, 1e-12
+
 
 @dataclass(frozen=True)
 class ThreadFlank:
-    """One side of the thread: the surface at an angle of the thread in rad, with 0 as face parameter near the wheel."""
+    """One side of the thread at an angle of it in rad: the surface and where its profile ends, with 0 as face
+    parameter near the wheel.
+    """
 
     at: Callable[[float], Surface]
-    span: Span
+    span: Callable[[float], Span]
+
+
+@dataclass(frozen=True)
+class Root:
+    """Distance in mm that a place is above the root, and its slopes by the distance from the axis and along it."""
+
+    above: Floats
+    slopes: tuple[Floats, Floats]
+
+
+@dataclass(frozen=True)
+class Revolved:
+    """Tip and root of a thread, surfaces of revolution: functions of places (...,), distances in mm from the axis and
+    positions along it.
+
+    below_tip: positive below the tip, 0 on it.  root: the same above the root, with its slopes.
+    """
+
+    below_tip: Callable[[Floats, Floats], Floats]
+    root: Callable[[Floats, Floats], Root]
+
+    @classmethod
+    def cones(cls, tip: float, root: float, taper: float) -> Revolved:
+        """Cones, or cylinders, of radii in mm at z = 0 that grow by ``taper`` along z."""
+        slant = np.hypot(1.0, taper)
+
+        def above(radius: Floats, z: Floats, of: float) -> Floats:
+            return (radius - of - taper * z) / slant
+
+        def above_root(radius: Floats, z: Floats) -> Root:
+            one = np.ones_like(radius)
+            return Root(above(radius, z, root), (one / slant, -taper * one / slant))
+
+        return cls(lambda radius, z: -above(radius, z, tip), above_root)
+
+    def from_root(self, radius: Floats, z: Floats) -> Root:
+        """The distance from the root itself: from the foot of the normal through a place.
+
+        Raises ValueError where there is no such foot.
+        """
+        foot, slopes = (radius, z), (radius, z)
+        for _ in range(_ROOT_STEPS):
+            found = self.root(*foot)
+            steep = np.hypot(*found.slopes)
+            slopes = found.slopes[0] / steep, found.slopes[1] / steep
+            off = radius - foot[0], z - foot[1]
+            above = off[0] * slopes[0] + off[1] * slopes[1]
+            steps = [o - (above + found.above / steep) * slope for o, slope in zip(off, slopes, strict=True)]
+            foot = foot[0] + steps[0], foot[1] + steps[1]
+            if np.max(np.abs(steps)) < _ON_ROOT * max(1.0, float(np.max(radius))):
+                return Root(above, slopes)
+        raise ValueError(f"no place of the root lies below the flank ({np.max(np.abs(steps)):.3g} mm off)")
+
+    def root_radius(self, z: Floats, near: float) -> Floats:
+        """Radii (...,) of the root at positions (...,) along the axis, from one in mm that is near.
+
+        Raises ValueError where there is no root.
+        """
+        radius = np.full_like(z, near)
+        for _ in range(_ROOT_STEPS):
+            found = self.root(radius, z)
+            step = found.above / found.slopes[0]
+            radius = radius - step
+            if np.max(np.abs(step)) < _ON_ROOT * max(1.0, near):
+                return radius
+        raise ValueError(f"the root does not reach as far along the axis as {np.abs(z).max():.6g} mm")
 
 
 @dataclass(frozen=True)
 class ThreadBlank:
-    """Radii in mm at z = 0 of tip, root, rounding at the root and bore; taper: growth of the others along z."""
+    """Tip and root, and radii in mm of root and bore at z = 0 and of the rounding at the root."""
 
-    tip: float
+    revolved: Revolved
     root: float
     rounding: float
     bore: float
-    taper: float = 0.0
 
     def outline(self) -> Outline:
         """Tip and root in a half plane through the axis."""
-        slant = np.hypot(1.0, self.taper)
-
-        def above(points: Floats, radius: float) -> Floats:
-            return (np.hypot(points[..., 0], points[..., 1]) - radius - self.taper * points[..., 2]) / slant
 
         def above_root(points: Floats) -> tuple[Floats, Floats]:
-            radial = _radial(points)
-            radial[..., 2] = -self.taper
-            return above(points, self.root), radial / slant
+            found = self.revolved.from_root(np.hypot(points[..., 0], points[..., 1]), points[..., 2])
+            upward = _radial(points) * found.slopes[0][..., None]
+            upward[..., 2] = found.slopes[1]
+            return found.above, upward
 
-        return Outline(_azimuthal, above_root, lambda points: -above(points, self.tip), self.rounding)
+        def below_tip(points: Floats) -> Floats:
+            return self.revolved.below_tip(np.hypot(points[..., 0], points[..., 1]), points[..., 2])
+
+        return Outline(_azimuthal, above_root, below_tip, self.rounding)
 
     def bored(self, points: Floats) -> Floats:
         """Points (..., 3) moved radially to the bore, which keeps its share of the root's radius."""
-        share = self.bore / self.root
-        wanted = share * (self.root + self.taper * points[..., 2])
+        wanted = self.bore / self.root * self.revolved.root_radius(points[..., 2], self.root)
         scale = wanted / np.hypot(points[..., 0], points[..., 1])
         return points * np.stack([scale, scale, np.ones_like(scale)], axis=-1)
 
@@ -72,16 +143,20 @@ def thread_teeth(
 ) -> Teeth:
     """The thread as teeth; facing (3,): a point that faces the wheel at the angle 0; pitch: angle between threads.
 
-    Raises ValueError, at first use, where a side cannot be rounded or has no land left at tip or root.
+    Raises DesignError, at first use, where a side cannot be rounded or has no land left at tip or root.
     """
     radius, azimuth = float(np.hypot(*facing[:2])), float(np.arctan2(facing[1], facing[0]))
-    faces = (-_HALF_PORTION * radius, _HALF_PORTION * radius)
+    faces = (-HALF_PORTION * radius, HALF_PORTION * radius)
     outline = blank.outline()
 
     @cache
     def side(angle: float, name: SideName) -> ToothSide:
-        section = HalfPlanes(radius, azimuth - angle)
-        return rounded_side(flanks[name].at(angle), section, flanks[name].span, faces, outline)
+        section, flank = HalfPlanes(radius, azimuth - angle), flanks[name]
+        try:
+            return rounded_side(flank.at(angle), section, flank.span(angle), faces, outline)
+        except ValueError as error:
+            reason = f"the thread {abs(angle) / pitch:.3g} pitches from its middle is not whole: {error}"
+            raise DesignError("blank", None, reason, "change the blank, or model fewer --pairs") from error
 
     def cut(angle: float, values: Floats) -> Floats:
         """Between the thread at this angle and its right neighbour, met a pitch later."""

@@ -49,11 +49,10 @@ class ThreadSide:
     @classmethod
     def of(cls, thread: ThreadFlank, blank: ThreadBlank, ends: tuple[float, float]) -> ThreadSide:
         """The side between two values of z in mm; raises ValueError where it has no whole flank."""
-        surface, span, outline = thread.at(0.0), thread.span, blank.outline()
+        surface, span, outline = thread.at(0.0), thread.span(0.0), blank.outline()
         room = _BEYOND * (ends[1] - ends[0])
-        whole = SectionCurves(surface, cls.sections, constant(span.root), constant(span.tip))
-        profile = np.tile([span.root, span.middle, span.tip], (2, 1))
-        reach = whole.solve(np.array([ends[0] - room, ends[1] + room]), profile)
+        around = np.array([ends[0] - room, ends[1] + room])
+        reach = np.concatenate(span.faces(surface, cls.sections, around))
         count = max(_FEWEST_SAMPLES, int(_SAMPLES_PER_RADIAN * np.ptp(reach)))
         face = np.linspace(reach.min(), reach.max(), count)
 
@@ -61,29 +60,31 @@ class ThreadSide:
             centre, _ = outline.arc_centres(*surface(profile, face))
             return outline.above_root(centre)[0] - outline.radius
 
-        tip = crossing(lambda u, at: outline.below_tip(surface(u, at)[0]), face, (span.middle, span.tip))
-        joint = np.full_like(face, span.root)
+        middle, end = span.middle(face), span.tip(face)
+        tip = crossing(lambda u, at: outline.below_tip(surface(u, at)[0]), face, (middle, end))
+        joint = span.root(face)
         reaches = overlap(joint, face) < 0.0
         if reaches.any():
-            joint[reaches] = crossing(overlap, face[reaches], (span.root, span.middle))
+            joint[reaches] = crossing(overlap, face[reaches], (joint[reaches], middle[reaches]))
         joint_of = CubicSpline(face, joint)
 
         def arcs(share: Floats, face: Floats) -> tuple[Floats, Floats]:
             share, face = np.broadcast_arrays(share, face)
             return outline.arcs(*outline.arc_centres(*surface(joint_of(face), face)), share)
 
-        first, last = (_by_height(surface, profile, face) for profile in (joint, tip))
+        first, last = (_by_height(surface, profile, face, profile) for profile in (joint, tip))
+        near = _by_height(surface, middle, face, face)
         return cls(
-            SectionCurves(arcs, cls.sections, constant(0.0), constant(1.0)),
-            SectionCurves(surface, cls.sections, first, last),
+            SectionCurves(arcs, cls.sections, constant(0.0), constant(1.0), near),
+            SectionCurves(surface, cls.sections, first, last, near),
         )
 
 
-def _by_height(surface: Surface, profile: Floats, face: Floats) -> CubicSpline:
-    """The profile parameter of a line on a flank as a function of z."""
+def _by_height(surface: Surface, profile: Floats, face: Floats, number: Floats) -> CubicSpline:
+    """A number of a line on a flank as a function of z."""
     height = surface(profile, face)[0][:, 2]
     order = np.argsort(height)
-    return CubicSpline(height[order], profile[order])
+    return CubicSpline(height[order], number[order])
 
 
 def _grid(curves: SectionCurves, heights: Floats, shares: Floats) -> tuple[Floats, Floats]:

@@ -11,8 +11,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from meshwright.base.errors import DesignError
+from meshwright.contact.functions import has
 from meshwright.design.description import table_and_key
 from meshwright.drive import Drive
 from meshwright.fe.generated import constant, on_sections, pierced, region_surface, turned
@@ -21,7 +23,17 @@ from meshwright.fe.profile import SectionCurves, Surface
 from meshwright.fe.rim import bore_radius
 from meshwright.fe.rounding import Span
 from meshwright.fe.sizes import other_flank, solid_sizes
-from meshwright.fe.thread import HalfPlanes, ThreadBlank, ThreadFlank, opposite, side_of, thread_teeth
+from meshwright.fe.thread import (
+    HALF_PORTION,
+    HalfPlanes,
+    Revolved,
+    Root,
+    ThreadBlank,
+    ThreadFlank,
+    opposite,
+    side_of,
+    thread_teeth,
+)
 from meshwright.fe.tooth import SideName, Teeth
 from meshwright.flank.surface import Flank, FlankPoints
 
@@ -29,6 +41,10 @@ from meshwright.flank.surface import Flank, FlankPoints
 _BEYOND_TIP, _BEFORE_ROOT = 0.05, 0.02
 # Factors of the first and of the last of three parameters, of x, y, z and the distance from the axis.
 _FIRST_AND_LAST = np.eye(7)[[0, 2]]
+# Lines on which the profile of a flank is followed; how far beyond the neighbours of a portion, rad.
+_LINES_PER_RADIAN, _BEYOND_PORTION = 12, 0.2
+# Steps of Newton's method to the ends of a line across a flank, and its precision, in natural sizes of the profile.
+_NEWTON_STEPS, _PROFILE_STEP = 20, 1e-4
 _FIXED_POINT_STEPS = 20
 _THICKNESS_TOLERANCE = 1e-9
 # Step of the face parameter that shows which way it runs, rad.
@@ -48,10 +64,15 @@ class ThreadSides:
 def threads(drive: Drive, member: str, rim_thickness: float) -> Teeth:
     """The thread of a drive with a whole blank; rim_thickness in mm from the root to the bore.
 
-    Raises ValueError where the second flank finds no place.
+    Raises ValueError where the second flank finds no place, DesignError where the thread that faces the wheel at the
+    angle 0 is not whole.
     """
     sides = thread_sides(drive, member, rim_thickness)
-    return thread_teeth(sides.flanks, sides.working, sides.blank, drive.pitch(), sides.facing)
+    teeth = thread_teeth(sides.flanks, sides.working, sides.blank, drive.pitch(), sides.facing)
+    form = teeth.at(0.0)
+    for cut in (form.left_cut, form.right_cut):
+        cut(np.array(form.faces))
+    return teeth
 
 
 def thread_sides(drive: Drive, member: str, rim_thickness: float, other: Drive | None = None) -> ThreadSides:
@@ -60,7 +81,7 @@ def thread_sides(drive: Drive, member: str, rim_thickness: float, other: Drive |
     """
     sizes = solid_sizes(drive, member)
     bore = bore_radius(sizes["root_radius"], rim_thickness)
-    blank = ThreadBlank(sizes["tip_radius"], sizes["root_radius"], sizes["rounding"], bore, sizes["taper"])
+    blank = ThreadBlank(revolved(drive, member, sizes), sizes["root_radius"], sizes["rounding"], bore)
     facing, normal = contact(drive, member)
     working = side_of(normal)
     other = other or other_flank(drive)
@@ -73,10 +94,24 @@ def thread_sides(drive: Drive, member: str, rim_thickness: float, other: Drive |
         # The other flank belongs to the next groove along the axis.
         turn = -drive.pitch() if working == "left" else drive.pitch()
     flanks: dict[SideName, ThreadFlank] = {
-        working: ThreadFlank(_facing(surfaces[0], spans[0], 0.0), spans[0]),
-        opposite(working): ThreadFlank(_facing(surfaces[1], spans[1], turn), spans[1]),
+        working: _facing(surfaces[0], spans[0], 0.0),
+        opposite(working): _facing(surfaces[1], spans[1], turn),
     }
     return ThreadSides(flanks, working, blank, facing)
+
+
+def revolved(drive: Drive, member: str, sizes: dict[str, float]) -> Revolved:
+    """Tip and root as the drive's function ``outline_<member>`` says, or else the cones of its sizes."""
+    name = f"outline_{member}"
+    if not has(drive, name):
+        return Revolved.cones(sizes["tip_radius"], sizes["root_radius"], sizes["taper"])
+    outline = drive.function(name)
+
+    def root(radius: Floats, z: Floats) -> Root:
+        found = outline(radius, z)
+        return Root(found["root"], (found["root_slopes"][..., 0], found["root_slopes"][..., 1]))
+
+    return Revolved(lambda radius, z: outline(radius, z)["tip"], root)
 
 
 def contact(drive: Drive, member: str) -> tuple[Floats, Floats]:
@@ -105,10 +140,16 @@ def place_in_contact(drive: Drive, member: str) -> Floats:
 
 
 def span(drive: Drive, member: str) -> Span:
-    """The profile: as the drive says, else as far as blank, tool and singular lines let it exist."""
+    """The profile: as the drive says, else as far as blank, tool and singular lines let it exist.
+
+    Where it is not the same all along, as that of a screw is, its ends are followed along the flank, and on beyond the
+    ends of its face.
+    """
     sizes = solid_sizes(drive, member)
     if "span_root" in sizes:
-        return Span(sizes["span_root"], sizes["span_middle"], sizes["span_tip"])
+        return Span.constant(sizes["span_root"], sizes["span_middle"], sizes["span_tip"])
+    if "taper" not in sizes:
+        return _followed(drive, member, revolved(drive, member, sizes))
     rows = drive.surface(member, (2, 9))
     profile = rows.values[:, 0].reshape(rows.shape)
     radii = np.hypot(rows.points[:, 0], rows.points[:, 1]).reshape(rows.shape)
@@ -116,23 +157,94 @@ def span(drive: Drive, member: str) -> Span:
     middle = 0.5 * (root.mean() + tip.mean())
     outward = np.sign(tip.mean() - middle)
     highest, deepest = outward * (outward * tip).max(), outward * (outward * root).max()
-    ends = deepest + _BEFORE_ROOT * (middle - deepest), highest + _BEYOND_TIP * (highest - middle)
-    return Span(float(ends[0]), float(middle), float(ends[1]))
+    return Span.constant(*map(float, _ends(deepest, middle, highest)))
 
 
-def _facing(surface: Surface, of: Span, turn: float) -> Callable[[float], Surface]:
+def _ends(root: Floats, middle: Floats, tip: Floats) -> tuple[Floats, Floats, Floats]:
+    """Profile parameters just before the deepest place of a flank, at its middle and a little beyond its tip."""
+    return root + _BEFORE_ROOT * (middle - root), middle, tip + _BEYOND_TIP * (tip - middle)
+
+
+def _followed(drive: Drive, member: str, revolved: Revolved) -> Span:
+    """The profile of a thread that is none of a screw, from contact at pinion angle 0 along root and tip: as far as the
+    flank is used, and on as far as a portion there and its neighbours reach, or the flank does.
+    """
+    surface, start = _surface(drive, member), place_in_contact(drive, member)
+    used = drive.region(member).triangles.parameters[:, -1]
+    beyond = drive.pitch() + HALF_PORTION + _BEYOND_PORTION
+
+    def heights(profile: Floats, face: float) -> Floats:
+        """Height (2,) above the root at the first of two profile parameters, below the tip at the other."""
+        points, _ = surface(profile, np.full(2, face))
+        radius, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
+        return np.array([revolved.root(radius, z).above[0], revolved.below_tip(radius, z)[1]])
+
+    step = float(drive.flank(member).sizes[0]) * _PROFILE_STEP
+    places = [_ends_at(heights, np.full(2, start[0]), float(start[-1]), step)]
+    if places[0] is None:
+        raise ValueError("the flank does not reach its tip and root where it touches")
+    rows = [(float(start[-1]), places[0])]
+    for way, last in ((-1.0, used.min() - beyond), (1.0, used.max() + beyond)):
+        rows = _lines(heights, rows[::-1], way / _LINES_PER_RADIAN, last, step)
+    face, ends = np.array([at for at, _ in rows]), np.array([found for _, found in rows])
+    root, tip = (CubicSpline(face, end) for end in ends.T)
+
+    def end(number: int) -> Callable[[Floats], Floats]:
+        def profile(at: Floats) -> Floats:
+            at = np.clip(at, face[0], face[-1])
+            return _ends(root(at), 0.5 * (root(at) + tip(at)), tip(at))[number]
+
+        return profile
+
+    return Span(end(0), end(1), end(2))
+
+
+_Heights = Callable[[Floats, float], Floats]
+
+
+def _lines(
+    heights: _Heights, rows: list[tuple[float, Floats]], step: float, last: float, profile_step: float
+) -> list[tuple[float, Floats]]:
+    """Face parameters and ends (2,) of profiles, followed from the last of them on to a last face parameter."""
+    rows = list(rows)
+    while (last - rows[-1][0]) * step > 0.0:
+        at, ends = rows[-1]
+        near = ends if len(rows) < 2 else 2.0 * ends - rows[-2][1]
+        found = _ends_at(heights, near, at + step, profile_step)
+        if found is None or (found[1] - found[0]) * (ends[1] - ends[0]) <= 0.0:
+            break
+        rows.append((at + step, found))
+    return rows
+
+
+def _ends_at(heights: _Heights, near: Floats, face: float, step: float) -> Floats | None:
+    """Profile parameters (2,) of root and tip on one line across a flank, from nearby ones; None for none."""
+    found = near.copy()
+    for _ in range(_NEWTON_STEPS):
+        slope = (heights(found + step, face) - heights(found - step, face)) / (2.0 * step)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            change = heights(found, face) / slope
+        found = found - change
+        if not np.isfinite(found).all():
+            return None
+        if np.abs(change).max() < step:
+            return found
+    return None
+
+
+def _facing(surface: Surface, of: Span, turn: float) -> ThreadFlank:
     """The flank turned about z, its face parameter counted from what faces the wheel at each angle of the thread."""
     sense = _sense(surface, of)
-
-    def at(angle: float) -> Surface:
-        return turned(surface, turn, sense * (angle + turn))
-
-    return at
+    return ThreadFlank(
+        lambda angle: turned(surface, turn, sense * (angle + turn)),
+        lambda angle: of.counted_from(sense * (angle + turn)),
+    )
 
 
 def _sense(surface: Surface, of: Span) -> float:
     """1 where the azimuth grows with the face parameter, else −1."""
-    points, _ = surface(np.full(2, of.middle), np.array([-_SENSE_STEP, _SENSE_STEP]))
+    here = np.array([-_SENSE_STEP, _SENSE_STEP])
+    points, _ = surface(of.middle(here), here)
     return float(np.sign(points[0, 0] * points[1, 1] - points[0, 1] * points[1, 0]))
 
 
@@ -143,13 +255,14 @@ def _turn_to_thickness(
 
     Both are taken at the middle of their profiles.
     """
-    (own_point,), _ = surfaces[0](np.full(1, spans[0].middle), np.zeros(1))
+    here = np.zeros(1)
+    (own_point,), _ = surfaces[0](spans[0].middle(here), here)
     azimuth = np.arctan2(own_point[1], own_point[0])
     wanted = own_point[2] + thickness
-    middle = spans[1].middle
+    middle = float(spans[1].middle(here)[0])
     turn = 0.0
     for _ in range(_FIXED_POINT_STEPS):
-        flank = _facing(surfaces[1], spans[1], turn)(0.0)
+        flank = _facing(surfaces[1], spans[1], turn).at(0.0)
         curves = SectionCurves(flank, HalfPlanes(1.0, azimuth), constant(middle), constant(middle))
         found = float(curves.points(np.zeros(1), np.full((1, 1), middle))[0, 0, 2])
         # A right-hand thread turned forwards stands back by its screw parameter.
@@ -184,8 +297,9 @@ class _Enveloped:
         q = pierced(self.generated, feet, plane, self._places(*np.array(start)[:, None])[0])
         return q[:, 0], q[:, 2], self.generated(q).points
 
-    def on_sections(self, profile: Floats, factors: Floats, values: Floats, start: float) -> tuple[Floats, ...]:
-        found = self.generated(on_sections(self.generated, profile, factors, values, np.array([0.0, 0.0, start])))
+    def on_sections(self, profile: Floats, factors: Floats, values: Floats, start: Floats) -> tuple[Floats, ...]:
+        near = np.stack([profile, np.zeros_like(profile), start], axis=1)
+        found = self.generated(on_sections(self.generated, profile, factors, values, near))
         return found.parameters[:, 2], found.points, found.normals
 
     def _at(self, profile: Floats, face: Floats) -> FlankPoints:

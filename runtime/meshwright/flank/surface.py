@@ -63,7 +63,7 @@ class Flank:
                 return cls(drive, other, model.regions[k], len(description["bodies"]) + k)
         known = [f"flank of {b['name']}" for b in description["bodies"]]
         known += [f"{r['region']} of {r['name']}" for r in description["regions"]]
-        raise UsageError(f"this drive has no {region} of {member!r}; it has {', '.join(known)}")
+        raise UsageError(f"this drive has no {region} of {member!r}: its description makes {', '.join(known)}")
 
     def __repr__(self):
         return f"<{type(self).__name__} {self.region} of the {self.body['name']} of {self.drive.design.label}>"

@@ -1,9 +1,11 @@
 """A drive outside the tree: an hourglass worm that a plane generates, with a wheel of crowned plane teeth.
 
 The flank of the tool that grinds the worm is a plane tooth of the wheel; the wheel's own flank falls back from that
-plane by a parabola, which makes contact a point. Frames: ``f`` fixed, z along the worm's axis, x to the wheel; the
-wheel's axis is (0, sin Σ, cos Σ) through (a, 0, 0). The worm turns by +φ1 about z, the wheel by +φ2 about minus its
-axis. A wheel tooth points along −x of the wheel at rest. Right hand.
+plane by a parabola, which makes contact a point. Neither tool has a rounded tip, so that no fillet is generated on worm
+or wheel. The worm is turned to tori at tip and root; in solids an arc, of a radius that the blank gives, joins root and
+flank. Frames: ``f`` fixed, z along the worm's axis, x to the wheel; the wheel's axis is (0, sin Σ, cos Σ) through
+(a, 0, 0). The worm turns by +φ1 about z, the wheel by +φ2 about minus its axis. A wheel tooth points along −x of the
+wheel at rest. Right hand.
 """
 
 import sympy as sp
@@ -14,6 +16,7 @@ from derive.language.contact import contact
 from derive.language.definitions import Definitions
 from derive.language.drive import Body, Drive, Loading, Margin, Source, System, body_point
 from derive.language.envelope import envelope, explicit
+from derive.language.functions import outline, solid
 from derive.language.surface import swept
 from derive.language.symbols import Guard, Quantity, Rule, Table, Unknown, parameter, rotation_angle
 
@@ -33,6 +36,8 @@ crown = parameter("wheel_crowning_per_mm", "c", "crowning of the wheel's flank",
 thread_length = parameter("worm_length_mm", "L", "length of the threaded part", table=Table.BLANK, domain=POSITIVE)
 face_width = parameter("wheel_face_width_mm", "F", "face width of the wheel", table=Table.BLANK, domain=POSITIVE)
 height = parameter("addendum_mm", "h", "addendum of both members", table=Table.BLANK, domain=POSITIVE)
+rounding = parameter("worm_root_rounding_mm", "rho", "radius between flank and root of the worm", table=Table.BLANK,
+                     domain=POSITIVE)  # fmt: skip
 error_distance = parameter("center_distance_mm", "da", "centre distance error", table=Table.MISALIGNMENT, default=0)
 error_angle = parameter("shaft_angle_deg", "dSigma", "shaft angle error", table=Table.MISALIGNMENT, default=0)
 error_axial = parameter("axial_mm", "db", "shift of the wheel along its axis", table=Table.MISALIGNMENT, default=0)
@@ -41,7 +46,7 @@ separation = parameter("separation_mm", "delta", "separation for contact ellipse
 
 s, T_1, T_2, a, r_2 = (q.symbol for q in (flank, threads, teeth, distance, wheel_radius))
 alpha, beta, h = pressure_angle.symbol, inclination.symbol, height.symbol
-half_tooth = sp.pi / (2 * T_2)
+half_tooth, module = sp.pi / (2 * T_2), 2 * r_2 / T_2
 
 
 def tooth_flank(name, crowning, definitions):
@@ -78,12 +83,13 @@ def hourglass_worm():
     mounting = translation(x=a + error_distance.symbol) @ Rx(-(sp.pi / 2 + error_angle.symbol))
     mounting = mounting @ translation(z=error_axial.symbol) @ Rz(-phi_2)
     x, y, z = body_point("pinion")
-    rho = a - v.radius(x, y)
+    point, rho = (x, y, z), a - v.radius(x, y)
+    tip, root = v.radius(rho, z) - r_2 + h, r_2 + sp.Rational(6, 5) * h - v.radius(rho, z)
     worm = Body(
-        "pinion", thread, Rz(phi_1), {w_1: sp.Integer(0), theta: sp.Integer(0)}, point=(x, y, z),
+        "pinion", thread, Rz(phi_1), {w_1: sp.Integer(0), theta: sp.Integer(0)}, point=point,
         margins=(
-            Margin("off_tip", "tip", v.radius(rho, z) - r_2 + h),
-            Margin("off_root", "root", r_2 + sp.Rational(6, 5) * h - v.radius(rho, z)),
+            Margin("off_tip", "tip", tip),
+            Margin("off_root", "root", root),
             Margin("off_face", "face", thread_length.symbol / 2 - sp.Abs(z)),
         ),
         recovered=(solved.symbol,),
@@ -99,6 +105,10 @@ def hourglass_worm():
         ),
         lengthwise="axial",
     )  # fmt: skip
+    thread_sizes = {
+        "module": (module, "mm"), "tip_radius": (a - r_2 + h, "mm"),
+        "root_radius": (a - r_2 - sp.Rational(6, 5) * h, "mm"), "rounding": (rounding.symbol, "mm"),
+    }  # fmt: skip
     start = System(
         "start", definitions, (), (),
         {w_1: sp.Integer(0), theta: phi_1, w_2: sp.Integer(0), u_2: solved.symbol, error: sp.Integer(0)},
@@ -110,10 +120,11 @@ def hourglass_worm():
         title="Hourglass worm ground by a plane, with a crowned wheel of plane teeth",
         parameters=(
             flank, threads, teeth, distance, wheel_radius, pressure_angle, inclination, crown, thread_length,
-            face_width, height, error_distance, error_angle, error_axial, separation,
+            face_width, height, rounding, error_distance, error_angle, error_axial, separation,
         ),
         rules=(
-            Rule(height.symbol, sp.Rational(7, 10) * r_2 / T_2 * 2),
+            Rule(height.symbol, sp.Rational(7, 10) * module),
+            Rule(rounding.symbol, module / 5),
             Rule(thread_length.symbol, r_2),
             Rule(face_width.symbol, (a - r_2)),
         ),
@@ -139,6 +150,7 @@ def hourglass_worm():
         pinion_teeth=threads.key,
         handed="right",
         loading=Loading(pairs=5, torque_on="wheel"),
+        functions=(solid("pinion", thread_sizes), outline("pinion", point, tip, root)),
         sources=(Source("F. L. Litvin, A. Fuentes", "Gear Geometry and Applied Theory", 2004, "chapter 20"),),
     )  # fmt: skip
 
