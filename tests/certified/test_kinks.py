@@ -9,6 +9,8 @@ import sympy as sp
 
 from derive.emit.certified import code
 from derive.language.choice import excess, unit_step
+from derive.passes.quotients import reciprocals
+from derive.program.routine import routine
 from meshwright import Drive
 from meshwright.base.compile import FLAGS, compiler
 from meshwright.base.library import ffi, library
@@ -52,7 +54,7 @@ def continuous(tmp_path_factory):
 
     def shown(*expressions):
         tape, lower, nodes = lowered(*expressions)
-        made = code(tape, nodes, {lower(x): 0, lower(y): 1})
+        made = code(reciprocals(routine(tape, nodes)), {lower(x): 0, lower(y): 1})
         flat = [k for instruction in made.instructions for k in instruction]
         sizes = made.registers, len(made.inputs), len(made.constants), len(made.instructions), len(nodes)
         return loaded.continuous(
