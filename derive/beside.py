@@ -23,7 +23,8 @@ def begun(work: Callable[[], T]) -> Callable[[], T]:
         return cache(work)
     context = multiprocessing.get_context("fork")
     receiver, sender = context.Pipe(duplex=False)
-    process = context.Process(target=_send, args=(sender, work), daemon=True)  # ends with this one, asked for or not
+    # as a daemon it ends with this process, asked for or not
+    process = context.Process(target=_send, args=(receiver, sender, work), daemon=True)
     process.start()
     sender.close()
 
@@ -41,8 +42,11 @@ def begun(work: Callable[[], T]) -> Callable[[], T]:
     return cache(result)
 
 
-def _send(sender: Connection, work: Callable[[], object]) -> None:
+def _send(receiver: Connection, sender: Connection, work: Callable[[], object]) -> None:
+    receiver.close()  # as long as anybody could read, nothing would tell that the process that began this is gone
     try:
         sender.send((work(), None))
+    except BrokenPipeError:
+        pass
     except Exception as error:  # noqa: BLE001  raised where the result is asked for
         sender.send((None, error))
