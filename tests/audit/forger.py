@@ -106,8 +106,8 @@ class Forger:
             for item in (item for item in kept if item["object"] == kind):
                 text = re.sub(r"[0-9a-f]{64}", lambda m: renamed.get(m[0], m[0]), canonical(item))
                 body = json.loads(text)
-                if kind == "step":
-                    body["inputs"].sort()
+                if kind == "step" and isinstance(body["inputs"], list):  # a mutation may have made it anything
+                    body["inputs"].sort(key=str)
                 old, body["sha256"] = item["sha256"], sha256_of(body)
                 renamed[old] = body["sha256"]
                 objects[body["sha256"]] = body
