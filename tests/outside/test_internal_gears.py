@@ -291,9 +291,10 @@ def test_under_load_the_pairs_carry_the_torque(run):
         assert pair["peak_pressure_mpa"] == pytest.approx(pair["hertz_pressure_mpa"], rel=0.03)
 
 
-def test_a_first_design_is_written_from_what_the_file_declares(folder, tmp_path):
+def test_a_first_design_is_written_from_what_the_file_declares(folder, tmp_path, capsys):
     path = tmp_path / "first.toml"
     assert main(["--drives", str(folder), "new", "internal-gears", "--m", "3", "--z", "30:72", "--out", str(path)]) == 0
+    assert f"meshwright --drives {folder} tca {path}\n" in capsys.readouterr().out
     assert Drive.load(path, drives=folder).tca([0.0]).status == ("converged",)
 
 

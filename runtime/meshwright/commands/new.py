@@ -9,6 +9,7 @@ import argparse
 import difflib
 import math
 import re
+import shlex
 from collections import Counter
 from pathlib import Path
 
@@ -92,7 +93,8 @@ def run(options):
     if place != "-":
         touch, seen = _contact(drive := _drive(first))
         blamed = () if touch else _blamed(family, own, lambda kept: first_design(family, name, words, given, kept))
-        write_text("-", _next_steps(place, first, "\n".join([seen, *blamed, *_pointed(drive), *_undercut(drive)])))
+        seen = "\n".join([seen, *blamed, *_pointed(drive), *_undercut(drive)])
+        write_text("-", _next_steps(place, first, seen, options.drives))
     return 0
 
 
@@ -182,8 +184,9 @@ def _words(family, text):
     return words
 
 
-def _next_steps(place, first, seen):
+def _next_steps(place, first, seen, folders):
+    meshwright = shlex.join(["meshwright", *(word for folder in folders for word in ("--drives", str(folder)))])
     lines = [f"{place} written; assumed:"]
     lines += [f"  {key} = {value}: {why}" for key, value, why in first.assumed if why]
-    lines += [seen, "go on with", f"  meshwright tca {place}", f"  meshwright report {place} --html report.html"]
+    lines += [seen, "go on with", f"  {meshwright} tca {place}", f"  {meshwright} report {place} --html report.html"]
     return "\n".join(lines) + "\n"
