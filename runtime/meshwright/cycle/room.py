@@ -33,7 +33,8 @@ class Room(NamedTuple):
 def room(drive, play):
     """Every :class:`Room` of a drive with the negative backlash ``play`` (rad), the least change first.
 
-    Empty where the drive does not jam. A change is that of the tangent, checked by the backlash a little beyond it.
+    Empty where the drive does not jam. A change is where the secant of two backlashes, of the design and of one changed
+    by its overlap, comes to zero; the backlash a little beyond it is computed and must be positive.
     """
     if not play < -ROUND_OFF:
         return ()
@@ -67,7 +68,7 @@ def _overlap(drive, play):
 
 
 def _change(drive, play, table, key, step):
-    """The change of a key that by its tangent opens the backlash ``play`` to zero; NaN if none does."""
+    """The change of a key at which the secant through the backlash ``play`` comes to zero; NaN if it never does."""
     gained = _play(drive, table, key, step) - play
     return -play * step / gained if abs(gained) > -LEAST * play else math.nan
 
