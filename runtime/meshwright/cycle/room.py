@@ -34,7 +34,7 @@ def room(drive, play):
     """Every :class:`Room` of a drive with the negative backlash ``play`` (rad), the least change first.
 
     Empty where the drive does not jam. A change is where the secant of two backlashes, of the design and of one changed
-    by its overlap, comes to zero; the backlash a little beyond it is computed and must be positive.
+    by its overlap, comes to zero; the backlash a little beyond it is computed and may not be negative.
     """
     if not play < -ROUND_OFF:
         return ()

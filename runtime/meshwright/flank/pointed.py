@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshwright.base.errors import DesignError, UsageError
+from meshwright.base.errors import UsageError
+from meshwright.flank.blank import with_whole_blank
 from meshwright.flank.mesh import mesh
 from meshwright.flank.region import region
 from meshwright.flank.tooth import CELLS, tooth
@@ -43,18 +44,9 @@ def pointed(drive):
         return ()
     teeth = 2 * math.pi / drive.pitch()
     members = (("pinion", teeth), ("wheel", teeth / drive.ratio))
-    whole = _whole(drive)
+    whole, _, _ = with_whole_blank(drive)
     found = ((member, _meeting(drive, whole, member, round(count))) for member, count in members)
     return tuple(Pointed(member, radius) for member, radius in found if math.isfinite(radius))
-
-
-def _whole(drive):
-    """The drive with the standard proportions where its blank is open, if they fit it."""
-    try:
-        design, assumed = drive.design.with_whole_blank()
-    except DesignError:
-        return drive
-    return drive.of_design(design) if assumed else drive
 
 
 def unknown(drive):

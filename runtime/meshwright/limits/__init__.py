@@ -6,8 +6,9 @@ drive that offers them.
 
 from dataclasses import replace
 
-from meshwright.base.errors import DesignError, UsageError
+from meshwright.base.errors import UsageError
 from meshwright.contact import functions
+from meshwright.flank.blank import with_whole_blank
 from meshwright.flank.pointed import pointed
 from meshwright.limits import clearance, contacts, rack
 from meshwright.limits.branches import branch_points
@@ -35,7 +36,7 @@ def limits_of(drive, request=None, step=lambda text: None):
     request = Request() if request is None else request
     if not isinstance(request, Request):
         raise UsageError(f"request = {request!r}: says nothing of limits; give a meshwright.limits.Request")
-    given, (drive, assumed, left_open) = drive, _bounded(drive)
+    given, (drive, assumed, left_open) = drive, with_whole_blank(drive)
     step("limits of contact")
     generated = rack.generation_limits(drive, request) if functions.has(drive, "generation") else rack.none(request)
     searched = drive.design.description["least_teeth"]
@@ -61,15 +62,6 @@ def limits_of(drive, request=None, step=lambda text: None):
     mirror = drive.design.mirror
     names = ("undercut", "regression", "first_type", "second_type", "axes", "section_profile", "branch_points")
     return replace(found, **{name: tuple(entry.seen_in(mirror) for entry in getattr(found, name)) for name in names})
-
-
-def _bounded(drive):
-    """The drive with its whole blank, what of it was assumed, and why the standard proportions do not fit or ""."""
-    try:
-        whole, assumed = drive.design.with_whole_blank()
-    except DesignError as error:
-        return drive, {}, str(error)
-    return (drive.of_design(whole) if assumed else drive), assumed, ""
 
 
 def contacts_of(drive, angle):
