@@ -1,117 +1,89 @@
-"""``python -m derive [DRIVE…|FILE.py] [--output FOLDER | --into FOLDER]``: run the six stages, write their files.
+"""``python -m derive [DRIVE…|FILE.py…] [--output FOLDER | --into FOLDER] [--strict]``: run the six stages, write their
+files.
 
 ``python -m derive show DRIVE|FILE.py [--after PASS]`` prints the description, or the program after a pass.
 
-Without drives, everything is proved anew and the files of every packaged drive are replaced, which are those that a
-packaged design uses; with ``all`` the files of all drives. With names, the files of those drives alone are replaced;
-what they rest on is looked up in the record that was written when everything was last proved. ``--into`` writes a
-folder of drives instead, with shared objects and an audit entry each, for ``meshwright --drives FOLDER``: of the drives
-named, or of those that a file outside the tree defines.
+Without drives, the whole record is proved and the files of every packaged drive are replaced, which are those that a
+packaged design uses; with ``all`` the files of all drives. With names, the files of those drives alone are replaced,
+and the statements that they rest on are decided anew. ``--into`` writes a folder of drives instead, with shared objects
+and an audit entry each, for ``meshwright --drives FOLDER``: of the drives named, or of those that a file outside the
+tree defines.
+
+A statement that is false or not decided of today's pages is open: it is said here, in the header, in the drive's JSON
+and on its page, and nothing is cited from it. The C is written all the same, unless ``--strict`` makes it an error.
 """
 
+from __future__ import annotations
+
 import argparse
-import json
+import multiprocessing
 import sys
 import time
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
-from difflib import get_close_matches
 from functools import partial
 from pathlib import Path
 
-from derive import beside, compiler, drives, outside
-from derive.audit.checker.record import read_record
-from derive.audit.checker.refusal import Rejected
-from derive.audit.provenance import Proved
+from derive import beside, compiler, drive_folder, generated
+from derive.audit.standing import UNKNOWN, Standing, of_ledger, standings
+from derive.compiler import Compiled
 from derive.emit import families
-from derive.files import remove_parts, replace_text
-from derive.language.refusal import DescriptionError
+from derive.files import remove_parts
 from derive.language.validate_outlines import validate_outlines
 from derive.packaged import packaged
-from derive.passes.guards import Unguarded
-from meshwright.base.compile import CompileError
+from derive.pages import EVERY, Page, of_tree, pages
+from derive.refusals import Refused, told
 
-EVERY = "all"
+#: Exit status of what is open where ``--strict`` is given, and of what is refused.
+OPEN, REFUSED = 1, 2
 
 
 @contextmanager
-def log(stage, name):
+def log(stage: str, name: str) -> Iterator[None]:
     """One line a stage: its name, the drive, its time."""
     begin = time.perf_counter()
     yield
     sys.stderr.write(f"{stage:<9} {name:<28} {time.perf_counter() - begin:7.3f} s\n")
 
 
-def show(arguments):
-    """Print the description of a drive, or its program after a pass; exit status 0, or 2 for an unknown drive."""
-    from derive.emit import text
-    from derive.passes.after import PASSES, routines
-    from derive.passes.schedule import schedule
-
-    parser = argparse.ArgumentParser(prog="python -m derive show", description=show.__doc__)
-    parser.add_argument("drive", help="name of a drive, or a file that defines one")
-    parser.add_argument("--after", choices=[*PASSES], help="the program after this pass; default: the description")
-    options = parser.parse_args(arguments)
-    try:
-        for drive in _built(options.drive):
-            if options.after:
-                plan = schedule(drive)
-                print(text.program(plan, routines(plan, options.after), options.after))
-            else:
-                print(text.description(drive))
-    except BrokenPipeError:  # who reads has seen enough
-        sys.stdout = None
-    except (outside.FileError, DescriptionError) as error:
-        print(error, file=sys.stderr)
-        return 2
-    return 0
-
-
-def _built(word):
-    """The drives of a name or of a file outside the tree."""
-    if word.endswith(".py"):
-        path = Path(word)
-        return (outside.built(path, name, build) for name, build in outside.catalogue_of(path).items())
-    (name,) = _known([word])
-    return (drives.catalogue([name])[name](),)
-
-
-def main(arguments=None):
-    """Exit status 0, or 2 for an unknown drive, a description that contradicts itself, a damaged folder or one that
-    cannot be written.
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Exit status 0; 1 with ``--strict`` where a statement is open; 2 for an unknown drive, a page that is refused, a
+    damaged folder or one that cannot be written.
     """
     arguments = sys.argv[1:] if arguments is None else list(arguments)
-    if arguments[:1] == ["show"]:
-        return show(arguments[1:])
+    try:
+        if arguments[:1] == ["show"]:
+            return _show(arguments[1:])
+        return _derive(arguments)
+    except Refused as error:
+        print(error, file=sys.stderr)
+        return REFUSED
+
+
+def _derive(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m derive", description=__doc__)
     parser.add_argument("drive", nargs="*", help="drives to compile, or all; default: those of packaged designs")
     parser.add_argument("--output", type=Path, default=compiler.ROOT / "generated", help="folder to write")
     parser.add_argument("--into", type=Path, metavar="FOLDER", help="write a folder of drives, compiled and audited")
+    parser.add_argument("--strict", action="store_true", help="exit status 1 where a statement is open")
     options = parser.parse_args(arguments)
     try:
         if options.into:
-            _into(options.into, options.drive)
+            made = _into(options.into, options.drive)
         elif not options.drive or EVERY in options.drive:
-            files = _everything(every=EVERY in options.drive)
-            _remove_superseded(options.output, files)
-            _replace(options.output, files)
+            made = _everything(options.output, every=EVERY in options.drive)
         else:
-            files = _some(_known(options.drive))
-            remove_parts(options.output)
-            _replace(options.output, files)
-            _list_in_manifest(options.output, files)
-    except Rejected as error:
-        print(f"the audit record is damaged: {error}; python -m derive proves it anew", file=sys.stderr)
-        return 2
+            made = _some(options.output, options.drive)
     except OSError as error:
-        print(_refused(error, options), file=sys.stderr)
-        return 2
-    except (outside.FileError, DescriptionError, Unguarded, CompileError, DamagedManifest) as error:
-        print(error, file=sys.stderr)
-        return 2
-    return 0
+        raise Refused(_refused(error, options)) from error
+    for compiled in made:
+        for statement, reason in compiled.open.items():
+            sys.stderr.write(f"open      {compiled.drive.name:<28} {statement}: {reason}\n")
+    return OPEN if options.strict and any(compiled.open for compiled in made) else 0
 
 
-def _refused(error, options):
+def _refused(error: OSError, options: argparse.Namespace) -> str:
     """What the system refused, in words: a folder that was named, or a file of the installation."""
     folder, option = (options.into, "--into") if options.into else (options.output, "--output")
     place = Path(error.filename or folder)
@@ -120,117 +92,76 @@ def _refused(error, options):
     return f"{place}: cannot be read ({error.strerror}); install meshwright again, whole"
 
 
-def _known(names):
-    """The names, if they are of drives of the tree."""
-    known = drives.catalogue(names)
-    for name in names:
-        if name.endswith(".py"):
-            raise outside.FileError(f"{name}: what a file defines is written to a folder of its own: add --into FOLDER")
-        if name not in known:
-            every = [*drives.catalogue()]
-            near = get_close_matches(name, every)
-            remedy = f"did you mean {' or '.join(near)}?" if near else f"known: {', '.join(every)}"
-            raise outside.FileError(f"no drive {name!r}; {remedy}")
-    return names
-
-
-def _into(folder, words):
+def _into(folder: Path, words: Sequence[str]) -> list[Compiled]:
     """Write the drives of names, or of files, into a folder of drives."""
     if not words:
-        raise outside.FileError("--into: no drive is named; name drives, a file that defines some, or all")
-    proved = beside.begun(_proved)
-    for word in [*drives.catalogue()] if EVERY in words else words:
+        raise Refused("--into: no drive is named; name drives, a file that defines some, or all")
+    return [drive_folder.write(page, standings, folder, log) for page in pages(words)]
+
+
+def _some(folder: Path, words: Sequence[str]) -> list[Compiled]:
+    """Replace the files of the drives named."""
+    for word in words:
         if word.endswith(".py"):
-            path = Path(word)
-            listed = [outside.built(path, name, build) for name, build in outside.catalogue_of(path).items()]
-            # a family of the tree has drives beside these, and its outline is checked there
-            validate_outlines(d for d in listed if d.family.replace("-", "_") not in drives.FAMILIES)
-            for drive in listed:
-                outside.write(lambda drive=drive: drive, drive.name, proved, folder, log, path)
-        else:
-            (name,) = _known([word])
-            outside.write(drives.catalogue([name])[name], name, proved, folder, log)
+            raise Refused(f"{word}: what a file defines is written to a folder of its own: add --into FOLDER")
+    made = [compiler.compile_drive(page, standings, log, begun=beside.begun) for page in pages(words)]
+    remove_parts(folder)
+    generated.add(folder, {path: text for compiled in made for path, text in compiled.files.items()})
+    return made
 
 
-def _replace(folder, files):
-    for path, text in files.items():
-        replace_text(folder / path, text)
-
-
-def _some(names):
-    """The files of the drives named."""
-    proved = beside.begun(_proved)
-    return {path: text for name in names for path, text in _compiled(name, proved, beside.begun).items()}
-
-
-def _proved():
-    with log("prove", "audit record, as written"):
-        return Proved.by(read_record(compiler.RECORD))
-
-
-def _everything(every):
-    """Every generated file, all of it proved anew; of the drives the packaged ones, or every one."""
+def _everything(folder: Path, every: bool) -> list[Compiled]:
+    """Replace every generated file, all of it proved anew; of the drives the packaged ones, or every one."""
     from derive.audit import record
 
     with log("prove", "audit record"):
         ledger = record.ledger()
-    with log("define", "families"):
-        known = drives.catalogue()
-        listed = [build() for build in known.values()]
+    with log("define", "families"), told("define", "the families"):
+        listed = [page.build() for page in pages([EVERY])]
         validate_outlines(listed)
         table = families.table(listed)
-    files = _of_drives([*known] if every else packaged(table), Proved.by(ledger.objects))
+    made = _compiled(of_tree([drive.name for drive in listed] if every else packaged(table)), of_ledger(ledger))
+    files = {path: text for compiled in made for path, text in compiled.files.items()}
     files["families.json"] = families.text(table)
     with log("emit", "audit record"):
         files |= record.files(ledger, files)
-    files["manifest.json"] = compiler.manifest(files)
-    return files
+    generated.replace(folder, files)
+    return made
 
 
-def _of_drives(names, proved):
-    """The files of these drives, each made by whichever process is free; those that take longest come last."""
-    from concurrent.futures import ProcessPoolExecutor
-
-    with ProcessPoolExecutor() as processes:
-        made = list(processes.map(partial(_of_drive, proved), reversed(names)))
-    return {path: text for files in reversed(made) for path, text in files.items()}
+def _compiled(listed: Sequence[Page], known: Mapping[str, Standing]) -> list[Compiled]:
+    """Many pages, each compiled by whichever process is free; those that take longest come last."""
+    with ProcessPoolExecutor(mp_context=multiprocessing.get_context("fork")) as processes:
+        made = processes.map(partial(_compile, known), [page.name for page in reversed(listed)])
+        return [*made][::-1]
 
 
-def _of_drive(proved, name):
-    return _compiled(name, lambda: proved)
+def _compile(known: Mapping[str, Standing], name: str) -> Compiled:
+    (page,) = of_tree([name])
+    return compiler.compile_drive(page, lambda names: {each: known.get(each, UNKNOWN) for each in names}, log)
 
 
-def _compiled(name, proved, *begun):
-    return compiler.compile_drive(drives.catalogue([name])[name], name, proved, log, None, None, *begun)
+def _show(arguments: Sequence[str]) -> int:
+    """Print the description of a drive, or its program after a pass; exit status 0, or 2 for an unknown drive."""
+    from derive.emit import text
+    from derive.passes.after import PASSES, routines
+    from derive.passes.schedule import schedule
 
-
-def _written(folder):
-    """Path → hash of what earlier runs wrote there, by the manifest."""
-    manifest = folder / "manifest.json"
-    if not manifest.exists():
-        return {}
+    parser = argparse.ArgumentParser(prog="python -m derive show", description=_show.__doc__)
+    parser.add_argument("drive", help="name of a drive, or a file that defines one")
+    parser.add_argument("--after", choices=[*PASSES], help="the program after this pass; default: the description")
+    options = parser.parse_args(arguments)
     try:
-        files = json.loads(manifest.read_text(encoding="utf-8"))["files"]
-        outside = [path for path in files if Path(path).is_absolute() or ".." in Path(path).parts]
-    except (ValueError, KeyError, TypeError) as error:
-        raise DamagedManifest(f"{manifest} is damaged ({error}): remove it; what it listed stays then") from error
-    if outside:
-        raise DamagedManifest(f"{manifest} names {outside[0]}, which is outside its folder: remove it")
-    return files
-
-
-class DamagedManifest(ValueError):
-    """The list of what an earlier run wrote cannot be believed."""
-
-
-def _remove_superseded(folder, files):
-    """Remove what earlier runs wrote there and this one does not."""
-    for path in _written(folder).keys() - files.keys():
-        (folder / path).unlink(missing_ok=True)
-    remove_parts(folder)
-
-
-def _list_in_manifest(folder, files):
-    """Add the files of some drives to a folder's manifest."""
-    if written := _written(folder):
-        replace_text(folder / "manifest.json", compiler.manifest_of(written | compiler.hashes(files)))
+        for page in pages([options.drive]):
+            with told("define", page.name):
+                drive = page.build()
+            if options.after:
+                with told("schedule", page.name):
+                    plan = schedule(drive)
+                    shown = text.program(plan, routines(plan, options.after), options.after)
+            else:
+                shown = text.description(drive)
+            print(shown)
+    except BrokenPipeError:  # who reads has seen enough
+        sys.stdout = None
+    return 0

@@ -4,25 +4,30 @@ define    ``derive.drives``   → :class:`~derive.language.drive.Drive`: chains,
 derive    ``derive.passes``   → locus, normal, meshing and contact as equations on one tape (``derive.program``)
 reduce    ``derive.passes``   → the equations' linear system solved: one fused Newton step in a fixed order of pivots
 schedule  ``derive.passes``   → all that is read from them, with binding times, edges, curvature and guards
-prove     ``derive.audit``    → the statements of the record on which each function rests (``derive.prove``)
+prove     ``derive.audit``    → the statements on which each function rests, decided anew (``derive.prove``)
 emit      ``derive.emit``     → C99, CasADi, JSON, text, the description as data, of routines in the order of printing
 
 A drive's page reads like the model section of a paper. Where the meshing equation is linear in a variable, the page's
 own language has solved it, so that a generated surface is explicit before its equations are derived. The stages after
 the first are common to all drives. What differentiates, substitutes, fuses or orders is a pass: printers read plans and
-routines that are made, and add nothing to them. Statements are proved once for all drives; which ones a drive rests on
-is looked up when its operations are known.
+routines that are made, and add nothing to them. Proving goes on beside the other stages and never in their way: what
+is false or not decided of today's definitions is open, said, and cited nowhere.
 """
 
 import hashlib
 import json
-from dataclasses import replace
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from typing import TypeAlias, TypeVar
 
-from derive.audit.provenance import provenance
+from derive.audit import provenance
+from derive.audit.provenance import Provenance, Standings
 from derive.emit import bounded, c99, certified, certify, lanes, metadata, sensitivity
 from derive.language import description
+from derive.language.drive import Drive
 from derive.language.validate import validate
 from derive.language.validate_sample import (
     validate_limits,
@@ -35,11 +40,18 @@ from derive.passes import enclosed, guards
 from derive.passes.arrange import arrange, side_by_side, unfused
 from derive.passes.completion import at_end
 from derive.passes.equations import derive
+from derive.pages import Page
 from derive.passes.joints import joints
 from derive.passes.pivot_order import reduce
+from derive.passes.plan import Schedule
 from derive.passes.sample import observation
 from derive.passes.schedule import scheduled
 from derive.passes.tangents import differentiate
+from derive.refusals import told
+
+T = TypeVar("T")
+#: What is told of a stage, by its word, and a drive.
+Log: TypeAlias = Callable[[str, str], AbstractContextManager[None]]
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -57,39 +69,74 @@ if not RUNTIME.exists():
     RECORD, RUNTIME = ROOT / "derive" / "record", package() / "include"
 
 
-def compile_drive(page, name, proved, log, open_=None, emitted=None, begun=lambda work: work):
-    """All generated files of the drive ``name`` that the function ``page`` builds: relative path → text.
+@dataclass(frozen=True)
+class Compiled:
+    """A drive with its generated files, relative path → text, and the statements that are open, with the reason."""
 
-    The function ``proved`` returns what the audit record proves (:class:`~derive.audit.provenance.Proved`). A statement
-    that it does not prove is an error or, where the mapping ``open_`` is given, entered there with the reason.
-    ``emitted`` is called with path and text of each file as soon as it is made. ``begun`` (:func:`derive.beside.begun`)
-    does half the work in a process of its own. Raises :class:`~derive.language.validate.DescriptionError` for a drive
-    whose page contradicts itself.
+    drive: Drive
+    files: dict[str, str]
+    open: dict[str, str]
+
+
+def compile_drive(
+    page: Page,
+    standings: Standings,
+    log: Log,
+    emitted: Callable[[str, str], None] = lambda path, text: None,
+    begun: Callable[[Callable[[], T]], Callable[[], T]] = lambda work: work,
+) -> Compiled:
+    """Take one page through the six stages.
+
+    ``standings`` says how statements stand (:func:`derive.audit.standing.standings`). ``emitted`` is called with path
+    and text of each file as soon as it is made. ``begun`` (:func:`derive.beside.begun`) does half the work in
+    processes of their own. Raises :class:`~derive.refusals.Refused` for what cannot be compiled, in words.
     """
-    with log("define", name):
-        drive = define(page)
-    with log("derive", name):
+    name = page.name
+
+    @contextmanager
+    def stage(word: str) -> Iterator[None]:
+        with log(word, name), told(word, name):
+            yield
+
+    def apart(word: str, work: Callable[[], T]) -> Callable[[], T]:
+        return begun(partial(_in_words, word, name, work))
+
+    with stage("define"):
+        drive = define(page.build)
+    with stage("derive"):
         plan = derive(drive)
-    with log("reduce", name):
+    with stage("reduce"):
         plan = reduce(plan)
-    with log("schedule", name):
+    with stage("schedule"):
         plan = scheduled(plan)
-    apart = begun(partial(checked, plan))
-    with log("prove", name):
-        origin = provenance(proved(), plan, open_)
-    files = {}
-    with log("emit", name):
-        for made in (lambda: emit(plan, origin), apart):
+        steps = provenance.cited(plan)
+    proof = apart("prove", partial(standings, {key for keys in steps.values() for key in keys}))
+    unproved = apart("emit", partial(checked, plan))
+    open_: dict[str, str] = {}
+
+    def origin() -> Provenance:
+        with stage("prove"):
+            found = provenance.provenance(proof(), steps)
+        open_.update(found["open"])
+        return found
+
+    files: dict[str, str] = {}
+    with stage("emit"):
+        for made in (lambda: emit(plan, origin), unproved):
             for path, text in made():
                 files[path] = text
-                if emitted:
-                    emitted(path, text)
-    return files
+                emitted(path, text)
+    return Compiled(drive, files, open_)
 
 
-def define(page):
+def _in_words(stage: str, name: str, work: Callable[[], T]) -> T:
+    with told(stage, name):
+        return work()
+
+
+def define(build: Callable[[], Drive]) -> Drive:
     """The drive that a page builds, without contradictions."""
-    drive = page()
+    drive = build()
     validate(drive)
     return drive
 
@@ -119,16 +166,18 @@ def checked(plan):
     ]
 
 
-def emit(plan, origin):
-    """What the other printers make of a schedule, file by file: path and text; what others include comes first."""
-    drive, metadata_of = plan.drive, metadata.describe(plan, origin)
-    c = f"c/{drive.name}"
-    routines = arrange(plan, [*guards.functions(plan), *guards.moving(plan)])
-    yield f"{c}.h", c99.header(plan, routines, metadata_of, RUNTIME)
+def emit(plan: Schedule, origin: Callable[[], Provenance]) -> Iterator[tuple[str, str]]:
+    """What the other printers make of a schedule, file by file: path and text. ``origin`` says what its statements
+    are, and is not asked before that is printed.
+    """
+    c = f"c/{plan.drive.name}"
     moved = differentiate(plan)
     tangents = [tangent.evaluated() for tangent in moved.tangents()]
     moving = arrange(moved, tangents, often={f.key for f in tangents})
     yield f"{c}_sensitivity.h", sensitivity.header(moved, moving, metadata.GENERATOR)
+    routines = arrange(plan, [*guards.functions(plan), *guards.moving(plan)])
+    metadata_of = metadata.describe(plan, origin())
+    yield f"{c}.h", c99.header(plan, routines, metadata_of, RUNTIME)
     proved = unfused(plan, [f for f in guards.functions(plan) if f.key in certify.FUNCTIONS])
     yield f"{c}_certify.h", certify.header(plan, proved, metadata_of, RUNTIME)
     evaluated = [*guards.functions(moved), *guards.moving(moved), *guards.bounded(moved), *tangents]

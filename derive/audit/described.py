@@ -21,6 +21,7 @@ from sympy.parsing.sympy_parser import parse_expr
 from derive import drives
 from derive.audit.plain_text import text
 from derive.language import description
+from derive.language.drive import Drive
 from derive.prove.tree import Tree, parse_formula
 
 
@@ -82,8 +83,14 @@ HALF_TURN_Y: Tree = ("mat", (-1, 0, 0), (0, 1, 0), (0, 0, -1))
 
 
 @cache
+def drive_of(name: str) -> Drive:
+    """A drive of the tree, as its page builds it."""
+    return drives.catalogue([name])[name]()
+
+
+@cache
 def _description(name: str) -> dict:
-    return description.describe(drives.catalogue([name])[name]())
+    return description.describe(drive_of(name))
 
 
 class Described:

@@ -115,17 +115,17 @@ def build(chapters: Sequence[Chapter]) -> Ledger:
     ledger = Ledger()
     for chapter in chapters:
         document = chapter.document
-        found = ledger.verdicts[document.key] = []
-        for claim in chapter.claims:
-            source = ledger.add(_source(document, claim))
-            if isinstance(claim, FigureClaim):
-                verdict = _judge_figures(ledger, document, claim, source)
-            else:
-                verdict = _judge(ledger, document, claim, source)
-            identifier = f"{document.key}/{claim.key}"
-            key = ledger.add(_verdict_body(verdict, identifier, source))
-            found.append(replace(verdict, id=identifier, sha256=key))
+        ledger.verdicts[document.key] = [judged(ledger, document, claim) for claim in chapter.claims]
     return ledger
+
+
+def judged(ledger: Ledger, document: Document, claim: Claim | FigureClaim) -> Verdict:
+    """Judge one claim and enter all that it rests on."""
+    source = ledger.add(_source(document, claim))
+    judge = _judge_figures if isinstance(claim, FigureClaim) else _judge
+    verdict = judge(ledger, document, claim, source)
+    identifier = f"{document.key}/{claim.key}"
+    return replace(verdict, id=identifier, sha256=ledger.add(_verdict_body(verdict, identifier, source)))
 
 
 def _source(document: Document, claim: Claim | FigureClaim) -> dict:
@@ -152,9 +152,9 @@ def _judge(ledger: Ledger, document: Document, claim: Claim, source: str) -> Ver
     if not readings:
         return Verdict(claim, "ambiguous" if claim.missing else claim.kind)
     outcomes = [str(reading.outcome) for reading in readings]
-    corrected, change = (
-        _correct(ledger, claim, identifier, readings[0], source) if set(outcomes) == {"refuted"} else (None, "")
-    )
+    # a print may be mistaken, a definition of ours is not to be guessed
+    printed_wrong = set(outcomes) == {"refuted"} and claim.kind != "identity"
+    corrected, change = _correct(ledger, claim, identifier, readings[0], source) if printed_wrong else (None, "")
     status = status_of(outcomes, [str(corrected.outcome)] if corrected else [], [], bool(claim.damage))
     return Verdict(claim, status, readings, corrected, change=change)
 

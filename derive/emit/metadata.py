@@ -24,7 +24,7 @@ ABI = 6
 def describe(plan, provenance):
     """Names, units, shapes, operations per stage, hashes and a self-test of one drive.
 
-    ``provenance`` is what the prove stage says of the drive: ``root_hash``, ``equations`` and ``equations_of``.
+    ``provenance`` is what the prove stage says of the drive (:class:`derive.audit.provenance.Provenance`).
     """
     drive = plan.drive
     offsets = _offsets(plan)

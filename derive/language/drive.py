@@ -1,6 +1,6 @@
 """What a drive is to every later stage: bodies on motions, parameters, and the limits that its flanks have."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
@@ -11,11 +11,13 @@ import sympy as sp
 from derive.language.chain import Motion
 from derive.language.definitions import Definitions
 from derive.language.functions import Function, LeastTeeth, ToolClearance
+from derive.language.origin import Cited
 from derive.language.outline import Outline
 from derive.language.surface import Surface
 from derive.language.symbols import Guard, Parameter, Quantity, Rule, Unknown
 from derive.language.tool import Tool
 from derive.language.vectors import Number, Vector
+from derive.language.written import remember
 
 #: Symbols and what they are.
 Values: TypeAlias = Mapping[Quantity, Number]
@@ -88,6 +90,9 @@ class Body:
     recovered: tuple[Quantity, ...] = ()
     lengthwise: str = ""
 
+    def __post_init__(self) -> None:
+        remember(self.name, f"flank_{self.name}")
+
     @cached_property
     def placed(self) -> Surface:
         return self.surface.placed(self.motion)
@@ -157,6 +162,9 @@ class Region:
     regular: sp.Expr
     margins: tuple[Margin, ...] = ()
     lengthwise: str = ""
+
+    def __post_init__(self) -> None:
+        remember(f"{self.member}/{self.name}", f"{self.name}_{self.member}")
 
 
 @dataclass(frozen=True)
@@ -286,6 +294,9 @@ class Drive:
     outline: Callable[[], Outline] | None = None
     sources: tuple[Source, ...] = ()
 
+    def __post_init__(self) -> None:
+        remember(self.name)
+
     @property
     def bodies(self) -> tuple[Body, Body]:
         return self.pinion, self.wheel
@@ -295,3 +306,14 @@ class Drive:
         """What fills open parameters, in the order in which it runs: the defaults, then the rules."""
         defaults = (Rule(p.symbol, p.default) for p in self.parameters if p.default is not None)
         return *defaults, *self.rules
+
+
+def citations(drive: Drive) -> Iterator[Cited]:
+    """Every statement of the audit record that the pages of a drive cite."""
+    for part in (*drive.bodies, *drive.regions):
+        yield from part.surface.steps
+    for function in drive.functions:
+        yield from function.rests_on
+    for definitions in (drive.definitions, drive.start.definitions, *(s.definitions for s in drive.systems)):
+        origins = (definitions.origin(symbol) for symbol, _ in definitions.items())
+        yield from (origin.statement for origin in origins if origin)

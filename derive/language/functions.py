@@ -24,6 +24,7 @@ import sympy as sp
 
 from derive.language import vectors as v
 from derive.language.differentiate import partial
+from derive.language.origin import cited
 from derive.language.replace import replaced
 from derive.language.symbols import Quantity
 from derive.language.vectors import Number, Vector
@@ -77,6 +78,9 @@ class Function:
     arguments: tuple[Quantity, ...]
     results: tuple[Result, ...]
     rests_on: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "rests_on", cited(self.rests_on))
 
 
 #: How names of functions begin that say sizes of solid teeth.

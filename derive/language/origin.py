@@ -7,6 +7,25 @@ the drive was derived. The prove stage refuses an id that the record has not pro
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from derive.language.written import page_file
+
+
+class Cited(str):
+    """The id of a statement, with the ``page`` whose definitions it is said of: the file that cites it."""
+
+    page: str = ""
+
+
+def cited(statements: Iterable[str]) -> tuple[Cited, ...]:
+    """These statements as cited by the page that calls, each kept that was cited before."""
+    found: list[Cited] = []
+    for statement in statements:
+        if not isinstance(statement, Cited):
+            statement = Cited(statement)
+            statement.page = page_file()
+        found.append(statement)
+    return tuple(found)
+
 
 @dataclass(frozen=True)
 class Origin:
@@ -16,8 +35,11 @@ class Origin:
     readers, where the formula is too long to be shown.
     """
 
-    statement: str
+    statement: Cited | str
     meaning: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "statement", *cited([self.statement]))
 
 
 #: Operations that are not defined everywhere.

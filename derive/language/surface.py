@@ -13,7 +13,7 @@ import sympy as sp
 from derive.language import vectors as v
 from derive.language.chain import Motion, Rz, screw, station
 from derive.language.definitions import Definitions
-from derive.language.origin import joined
+from derive.language.origin import cited, joined
 from derive.language.sampled import NEGLIGIBLE, sampled
 from derive.language.symbols import Quantity
 from derive.language.vectors import Number
@@ -64,6 +64,9 @@ class Surface:
     pole: v.Vector | None = None
     steps: tuple[str, ...] = ()
     made: tuple[Step, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "steps", cited(self.steps))
 
     def on(self, *statements: str) -> Self:
         """The same surface, resting on these statements of the record as well."""

@@ -8,6 +8,7 @@ from typing import Any, Self, TypeAlias
 import sympy as sp
 
 from derive.language.vectors import Number
+from derive.language.written import remember
 
 #: Lower and upper end of an open interval.
 Domain: TypeAlias = tuple[Number, Number]
@@ -39,6 +40,7 @@ class Quantity(sp.Symbol):
     ) -> Self:
         self = sp.Symbol.__xnew__(cls, name, real=True)
         self.unit, self.meaning, self.frame, self.parity = unit, meaning, frame, parity
+        remember(name)
         low, high = domain
         self.domain = sp.sympify(low), sp.sympify(high)
         return self
@@ -121,6 +123,9 @@ class Parameter:
     lower_included: bool = False
     above: str | None = None
     choices: tuple[tuple[str, int], ...] = ()
+
+    def __post_init__(self) -> None:
+        remember(self.key, self.place)
 
     @property
     def place(self) -> str:

@@ -1,0 +1,83 @@
+"""Where a page has written what a message speaks of: file and line of the call that gave a thing its name."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from pathlib import Path
+from types import FrameType, TracebackType
+
+#: Rooms whose code is no page's.
+_ENGINE = tuple(
+    str(Path(__file__).resolve().parents[1] / room) + os.sep
+    for room in ("language", "passes", "program", "emit", "prove", "audit", "exchange")
+)
+_WORD = re.compile(r"[A-Za-z_]\w*(?:[./][A-Za-z_]\w*)*")
+_places: dict[str, tuple[str, int]] = {}
+
+
+def remember(*names: str) -> None:
+    """Keep the line of the page from which this is called as that of these names."""
+    if (frame := _calling()) is not None:
+        _places.update(dict.fromkeys(names, (frame.f_code.co_filename, frame.f_lineno)))
+
+
+def page_file() -> str:
+    """The page from which this is called, "" where no page is."""
+    frame = _calling()
+    return "" if frame is None else frame.f_code.co_filename
+
+
+def _calling() -> FrameType | None:
+    """The innermost frame of a page."""
+    frame: FrameType | None = sys._getframe(2)  # pyright: ignore[reportPrivateUsage]
+    while frame is not None and not is_page(frame.f_code.co_filename):
+        frame = frame.f_back
+    return frame
+
+
+def is_page(file: str) -> bool:
+    """Whether a file may be a drive's page: neither the compiler's own, nor a library's, nor none at all."""
+    return not (file.startswith(_ENGINE) or file.startswith("<") or "site-packages" in file or _is_standard(file))
+
+
+def _is_standard(file: str) -> bool:
+    return file.startswith(os.path.dirname(os.__file__) + os.sep)
+
+
+def place_of(message: str) -> str:
+    """The line of the page that wrote the first name in a message of which that is known, or ""."""
+    quoted = re.findall(r"'([^']*)'", message)
+    for word in (*quoted, *_WORD.findall(message)):
+        for name in (word, word.rpartition(".")[2]):
+            if name in _places:
+                return line(*_places[name])
+    return ""
+
+
+def line_of(trace: TracebackType | None) -> str:
+    """The innermost line of a page through which an error came, with its text, or ""."""
+    found = ""
+    while trace is not None:
+        file, number = trace.tb_frame.f_code.co_filename, trace.tb_lineno
+        if is_page(file) and not file.endswith((f"{os.sep}compiler.py", f"{os.sep}pages.py")):
+            found = line(file, number)
+        trace = trace.tb_next
+    return found
+
+
+def line(file: str, number: int) -> str:
+    """A line of a file, in words: where it is and what it says."""
+    path = Path(file)
+    try:
+        text = path.read_text("utf-8").splitlines()[number - 1].strip()
+    except (OSError, ValueError, IndexError):
+        text = ""
+    return f"{shown(file)}, line {number}" + (f": `{text}`" if text else "")
+
+
+def shown(file: str) -> str:
+    """A file as a reader here would name it."""
+    near = os.path.relpath(file) if file else "no page"
+    return file if near.startswith("..") else near
