@@ -18,7 +18,7 @@ from difflib import get_close_matches
 from functools import partial
 from pathlib import Path
 
-from derive import beside, compiler, drives, outside
+from derive import compiler, drives, outside
 from derive.audit.checker.record import read_record
 from derive.audit.checker.refusal import Rejected
 from derive.audit.provenance import Proved
@@ -29,6 +29,7 @@ from derive.language.validate_outlines import validate_outlines
 from derive.packaged import packaged
 from derive.passes.guards import Unguarded
 from meshwright.base.compile import CompileError
+from meshwright.base.worker import submit
 
 EVERY = "all"
 
@@ -138,7 +139,7 @@ def _into(folder, words):
     """Write the drives of names, or of files, into a folder of drives."""
     if not words:
         raise outside.FileError("--into: no drive is named; name drives, a file that defines some, or all")
-    proved = beside.begun(_proved)
+    proved = submit(_proved)
     for word in [*drives.catalogue()] if EVERY in words else words:
         if word.endswith(".py"):
             path = Path(word)
@@ -159,8 +160,8 @@ def _replace(folder, files):
 
 def _some(names):
     """The files of the drives named."""
-    proved = beside.begun(_proved)
-    return {path: text for name in names for path, text in _compiled(name, proved, beside.begun).items()}
+    proved = submit(_proved)
+    return {path: text for name in names for path, text in _compiled(name, proved, submit).items()}
 
 
 def _proved():

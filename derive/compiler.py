@@ -62,9 +62,9 @@ def compile_drive(page, name, proved, log, open_=None, emitted=None, begun=lambd
 
     The function ``proved`` returns what the audit record proves (:class:`~derive.audit.provenance.Proved`). A statement
     that it does not prove is an error or, where the mapping ``open_`` is given, entered there with the reason.
-    ``emitted`` is called with path and text of each file as soon as it is made. ``begun`` (:func:`derive.beside.begun`)
-    does half the work in a process of its own. Raises :class:`~derive.language.validate.DescriptionError` for a drive
-    whose page contradicts itself.
+    ``emitted`` is called with path and text of each file as soon as it is made. ``begun``
+    (:func:`meshwright.base.worker.submit`) does half the work in a process of its own. Raises
+    :class:`~derive.language.validate.DescriptionError` for a drive whose page contradicts itself.
     """
     with log("define", name):
         drive = define(page)

@@ -12,12 +12,13 @@ import tempfile
 from functools import partial
 from pathlib import Path
 
-from derive import beside, compiler, drives
+from derive import compiler, drives
 from derive.audit.checker.refusal import UNREADABLE, Rejected, Undecided
 from derive.emit import families
 from derive.files import replace_text
 from derive.language.drive import Drive
 from derive.language.refusal import DescriptionError
+from meshwright.base.worker import submit
 
 #: What the checker may find: it computed both sides and they agree, or they do not, or it could not compute them.
 HOLDS, FAILS, OPEN = "holds", "does not hold", "not decided"
@@ -91,12 +92,12 @@ def write(page, name, proved, folder, log, source=None):
 
             def emitted(path, text):
                 if path == f"c/{name}.h":  # the first of all: no thread is there yet to be copied
-                    found.append(beside.begun(partial(checked, text)))
+                    found.append(submit(partial(checked, text)))
                 if path.endswith(".h"):
                     replace_text(fresh / _place(path), text)
                     begun.written(Path(path).name)
 
-            files = compiler.compile_drive(kept, name, proved, log, open_, emitted, beside.begun)
+            files = compiler.compile_drive(kept, name, proved, log, open_, emitted, submit)
             described = json.loads(files[f"c/{name}.json"])
             with log("audit", name):
                 entry = audit_entry(described, open_, found[0](), source)
