@@ -25,7 +25,7 @@ from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
-from derive import beside, compiler, drive_folder, generated
+from derive import compiler, drive_folder, generated
 from derive.audit.standing import UNKNOWN, Standing, of_ledger, standings
 from derive.compiler import Compiled
 from derive.emit import families
@@ -34,6 +34,7 @@ from derive.language.validate_outlines import validate_outlines
 from derive.packaged import packaged
 from derive.pages import EVERY, Page, of_tree, pages
 from derive.refusals import Refused, told
+from meshwright.base.worker import submit
 
 #: Exit status of what is open where ``--strict`` is given, and of what is refused.
 OPEN, REFUSED = 1, 2
@@ -104,7 +105,7 @@ def _some(folder: Path, words: Sequence[str]) -> list[Compiled]:
     for word in words:
         if word.endswith(".py"):
             raise Refused(f"{word}: what a file defines is written to a folder of its own: add --into FOLDER")
-    made = [compiler.compile_drive(page, standings, log, begun=beside.begun) for page in pages(words)]
+    made = [compiler.compile_drive(page, standings, log, submit=submit) for page in pages(words)]
     remove_parts(folder)
     generated.add(folder, {path: text for compiled in made for path, text in compiled.files.items()})
     return made

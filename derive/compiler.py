@@ -83,13 +83,13 @@ def compile_drive(
     standings: Standings,
     log: Log,
     emitted: Callable[[str, str], None] = lambda path, text: None,
-    begun: Callable[[Callable[[], T]], Callable[[], T]] = lambda work: work,
+    submit: Callable[[Callable[[], T]], Callable[[], T]] = lambda work: work,
 ) -> Compiled:
     """Take one page through the six stages.
 
     ``standings`` says how statements stand (:func:`derive.audit.standing.standings`). ``emitted`` is called with path
-    and text of each file as soon as it is made. ``begun`` (:func:`derive.beside.begun`) does half the work in
-    processes of their own. Raises :class:`~derive.refusals.Refused` for what cannot be compiled, in words.
+    and text of each file as soon as it is made. ``submit`` (:func:`meshwright.base.worker.submit`) does half
+    the work in processes of their own. Raises :class:`~derive.refusals.Refused` for what cannot be compiled, in words.
     """
     name = page.name
 
@@ -99,7 +99,7 @@ def compile_drive(
             yield
 
     def apart(word: str, work: Callable[[], T]) -> Callable[[], T]:
-        return begun(partial(_in_words, word, name, work))
+        return submit(partial(_in_words, word, name, work))
 
     with stage("define"):
         drive = define(page.build)

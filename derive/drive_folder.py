@@ -13,13 +13,14 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 
-from derive import beside, compiler
+from derive import compiler
 from derive.audit.checker.refusal import UNREADABLE, Rejected, Undecided
 from derive.audit.provenance import Standings
 from derive.emit import families
 from derive.files import replace_text
 from derive.pages import Page
 from derive.refusals import Refused
+from meshwright.base.worker import submit
 
 #: What the checker may find: it computed both sides and they agree, or they do not, or it could not compute them.
 HOLDS, FAILS, OPEN = "holds", "does not hold", "not decided"
@@ -37,12 +38,12 @@ def write(page: Page, standings: Standings, folder: Path, log: compiler.Log) -> 
 
             def emitted(path: str, text: str) -> None:
                 if path == f"c/{name}.h":  # before anything is compiled: no thread is there yet to be copied
-                    found.append(beside.begun(partial(checked, text)))
+                    found.append(submit(partial(checked, text)))
                 if path.endswith(".h"):
                     replace_text(fresh / _place(path), text)
                     begun.written(Path(path).name)
 
-            made = compiler.compile_drive(page, standings, log, emitted, beside.begun)
+            made = compiler.compile_drive(page, standings, log, emitted, submit)
             described = json.loads(made.files[f"c/{name}.json"])
             with log("audit", name):
                 entry = audit_entry(described, found[0](), page.file)

@@ -1,4 +1,4 @@
-"""Modules import one way: no cycle among those that are imported when a module is, in the runtime and in derive."""
+"""Modules import one way: no cycle among those that a module names at its top, in the runtime and in derive."""
 
 import ast
 from functools import cache
@@ -12,7 +12,7 @@ PACKAGES = {"meshwright": ROOT / "runtime" / "meshwright", "derive": ROOT / "der
 
 @cache
 def imported(package):
-    """Module → modules of its package that it imports when it is imported itself."""
+    """Module → modules of its package that it imports when it is imported itself, or when its types are checked."""
     folder = PACKAGES[package]
     files = {_name(package, folder, path): path for path in folder.rglob("*.py") if "_generated" not in path.parts}
     trees = {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in files.items()}
@@ -33,7 +33,7 @@ def _imports(statements, files):
                 yield from inner
                 if module in files and len(inner) < len(names):
                     yield module
-            case ast.Try(body=body) | ast.With(body=body):
+            case ast.Try(body=body) | ast.With(body=body) | ast.If(body=body):
                 yield from _imports(body, files)
 
 

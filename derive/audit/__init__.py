@@ -3,7 +3,7 @@
 claims.py        the words in which documents are encoded: scopes of definitions, claims, printed numbers
 documents/       the four source documents as printed; identities/ what we claim of our own derivations
 described.py     the derived side of both, read from the description of a drive
-coverage.py      what the documents display, counted from their texts, beside the entries that judge it
+coverage.py      what the documents display, beside the entries that judge it; displayed.py counts it from their texts
 ledger.py        every claim judged by the prover, every object hashed and linked, one root over all
 provenance.py    which equations each generated function rests on
 record.py        the whole record, and the files it is written to; store.py pages.py drive_pages.py render.py

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.audit import coverage, record
+from derive.audit import coverage, displayed, record
 
 SOURCES = os.environ.get("MESHWRIGHT_SOURCES")
 
@@ -35,7 +35,7 @@ def test_a_range_of_numbers_covers_those_within():
 
 def test_statements_of_a_text_are_found():
     text = "As follows:\n\na = b + c (1)\n\nwhere b is small.\n\nThus a is small. It holds.\n\nTable 1 Sizes\nA 2 mm\n"
-    found = [(s.kind, s.label) for s in coverage.statements("any", text + coverage.END)]
+    found = [(s.kind, s.label) for s in displayed.statements("any", text + displayed.END)]
     assert found == [("equation", "(1)"), ("where", "where 1"), ("table", "Table 1, row 1"), ("claim", "claim 1")]
 
 
@@ -48,6 +48,6 @@ def test_a_changed_quotation_is_a_transliteration(claims):
 
 @pytest.mark.skipif(not SOURCES, reason="MESHWRIGHT_SOURCES does not name the folder of the four texts")
 def test_the_list_of_statements_is_that_of_the_texts():
-    assert json.loads(json.dumps(coverage.measured(Path(SOURCES)))) == json.loads(
+    assert json.loads(json.dumps(displayed.measured(Path(SOURCES)))) == json.loads(
         coverage.DISPLAYED.read_text(encoding="utf-8")
     )

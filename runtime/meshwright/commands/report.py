@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from meshwright.base.aside import aside
 from meshwright.base.errors import UsageError
 from meshwright.base.files import write_text
+from meshwright.base.worker import in_worker
 from meshwright.commands import loaded, loading
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
@@ -48,7 +48,7 @@ def run(options):
     sizes = dict(_misalignment(text) for text in options.misalign)
     angles = _loaded_angles(options, drive)
     Mesh.of(drive)  # the window of contact, which the copy needs as well
-    with aside(drive.crossings) as crossings:  # while the drawing libraries are imported
+    with in_worker(drive.crossings) as crossings:  # while the drawing libraries are imported
         report = _report()
         with progress(report.steps(drive) + 1 + (loaded.STEPS + len(angles) if len(angles) else 0)) as step:
             analysis = report.analyse(drive, step, friction, marking, sizes, crossings)

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from numbers import Rational
-from typing import ClassVar
+from typing import ClassVar, Protocol
 
 import numpy as np
 
@@ -53,6 +53,15 @@ class EnclosedDesign:
             library().mw_enclose_setup(m, parameters, pointer(state, "mw_wide[]"))
         name = text(m.systems[failed - 1].name) if 0 < failed <= m.nsystems else ("" if failed else None)
         return cls(m, state, p, name)
+
+
+class ProvedModel(DriveModel, Protocol):
+    """A drive as proofs of its contact see it."""
+
+    @property
+    def enclosed(self) -> EnclosedDesign:
+        """The design's state, enclosed."""
+        ...
 
 
 def _given(design):
@@ -114,7 +123,7 @@ class Certificates(InWords):
     """
 
     WORDS: ClassVar = OUTCOMES
-    drive: DriveModel
+    drive: ProvedModel
     records: np.ndarray
     angles: np.ndarray
 

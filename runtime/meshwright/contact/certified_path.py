@@ -11,8 +11,7 @@ import numpy as np
 from meshwright.base.errors import UsageError
 from meshwright.base.library import ffi, library, pointer, text
 from meshwright.contact.analysis import largest_angle, trace
-from meshwright.contact.certificate import OUTCOMES
-from meshwright.contact.model import DriveModel
+from meshwright.contact.certificate import OUTCOMES, ProvedModel
 from meshwright.contact.results import ARCSEC
 
 #: Pieces shorter than this share of the range are not tried: there the branch is singular or ends.
@@ -47,7 +46,7 @@ class CertifiedPath:
     without turning point or crossing, smooth but where the formula of a flank changes.
     """
 
-    drive: DriveModel
+    drive: ProvedModel
     begin: float
     end: float
     pieces: tuple

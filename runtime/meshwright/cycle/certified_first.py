@@ -11,9 +11,9 @@ from meshwright.base.errors import UsageError
 from meshwright.base.library import library, pointer, record
 from meshwright.contact import exact
 from meshwright.contact.certificate import InWords
-from meshwright.contact.model import DriveModel
 from meshwright.contact.placement import placed
 from meshwright.contact.results import ARCSEC
+from meshwright.cycle.model import DriveModel
 from meshwright.flank.region import region
 from meshwright.flank.uses import Uses
 

@@ -12,8 +12,8 @@ import numpy as np
 from meshwright.base.library import ffi, library, pointer, record, text
 from meshwright.contact import exact
 from meshwright.contact.certified_path import CertifiedPath, certified_path, refuse_empty
-from meshwright.contact.model import DriveModel
 from meshwright.cycle import certified_first as single
+from meshwright.cycle.model import DriveModel
 
 #: Longest range of angles in pinion pitches of which each outcome is said: an overlap at one of its angles, or that
 #: nothing is shown. Where the contact leaves the flanks is told to ``LEAVING`` pitches. The path is certified beyond

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.library import ffi, library, pointer
-from meshwright.contact.model import DriveModel
 from meshwright.contact.placement import placed, placements_at
 from meshwright.flank.bounds import OPEN
 from meshwright.flank.mesh import mesh
+from meshwright.flank.model import DriveModel
 from meshwright.flank.region import region
 from meshwright.flank.uses import Uses
 

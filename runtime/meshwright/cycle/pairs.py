@@ -11,8 +11,8 @@ from functools import cached_property, partial
 import numpy as np
 
 from meshwright.base.roots import bracketed
-from meshwright.contact.model import DriveModel
 from meshwright.cycle.first_contact import search_from
+from meshwright.cycle.model import DriveModel
 from meshwright.cycle.rigid import RigidTeeth
 from meshwright.cycle.windows import Window
 

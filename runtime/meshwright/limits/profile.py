@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from meshwright.contact.model import DriveModel
+from meshwright.limits.model import DriveModel
 from meshwright.limits.zeros import zeros
 
 #: Steps of the search along a profile, in natural sizes of its parameter, and how far it goes.

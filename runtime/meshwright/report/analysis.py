@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from meshwright.base.aside import aside
 from meshwright.base.errors import UsageError
+from meshwright.base.worker import in_worker
 from meshwright.contact.contact_line import ContactLine, contact_line
 from meshwright.contact.flags import not_first
 from meshwright.contact.friction import Efficiency, efficiency
@@ -159,8 +159,8 @@ def analyse(drive, step, friction=None, marking=None, sizes=None, crossings=None
     step("contact over the pinion angle")
     tca = drive.tca(angles)
     with (
-        aside(lambda: drive.first_contact(angles, tca)) as first_contact,
-        aside(lambda: _sensitivities(drive, angles, sizes)) as sensitivities,
+        in_worker(lambda: drive.first_contact(angles, tca)) as first_contact,
+        in_worker(lambda: _sensitivities(drive, angles, sizes)) as sensitivities,
     ):
         step("all pairs together")
         running = None if mesh.window.path is None else _running(mesh, angles)

@@ -9,7 +9,7 @@ from importlib import resources
 import jinja2
 from markupsafe import Markup, escape
 
-from meshwright.base.aside import aside
+from meshwright.base.worker import in_worker
 from meshwright.report import style, validity
 from meshwright.report.figures import pictures
 from meshwright.report.findings import findings, tiles
@@ -31,7 +31,7 @@ class _Drawn:
 def page(analysis):
     """The page as text. Every text of the design is escaped."""
     shown = pictures(analysis)
-    with style.drawing(), aside(lambda: [_drawn(picture, analysis) for picture in shown[BESIDE:]]) as others:
+    with style.drawing(), in_worker(lambda: [_drawn(picture, analysis) for picture in shown[BESIDE:]]) as others:
         tables, view = groups(analysis), scene(analysis)
         drawn = [_drawn(picture, analysis) for picture in shown[:BESIDE]]
         return _filled(analysis, tables, view, drawn + others())
