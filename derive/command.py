@@ -80,7 +80,7 @@ def _derive(arguments: Sequence[str]) -> int:
         raise Refused(_refused(error, options)) from error
     for compiled in made:
         for statement, reason in compiled.open.items():
-            sys.stderr.write(f"open      {compiled.drive.name:<28} {statement}: {reason}\n")
+            sys.stderr.write(f"open      {compiled.name:<28} {statement}: {reason}\n")
     return OPEN if options.strict and any(compiled.open for compiled in made) else 0
 
 

@@ -25,7 +25,7 @@ from typing import TypeAlias, TypeVar
 
 from derive.audit import provenance
 from derive.audit.provenance import Provenance, Standings
-from derive.emit import bounded, c99, certified, certify, lanes, metadata, sensitivity
+from derive.emit import bounded, c99, certified, certify, families, lanes, metadata, sensitivity
 from derive.language import description
 from derive.language.drive import Drive
 from derive.language.validate import validate
@@ -71,11 +71,14 @@ if not RUNTIME.exists():
 
 @dataclass(frozen=True)
 class Compiled:
-    """A drive with its generated files, relative path → text, and the statements that are open, with the reason."""
+    """A drive's generated files, relative path → text; the statements that are open, with the reason; and what it
+    shares with its family (:func:`derive.emit.families.shared`).
+    """
 
-    drive: Drive
+    name: str
     files: dict[str, str]
     open: dict[str, str]
+    shared: dict[str, object]
 
 
 def compile_drive(
@@ -126,7 +129,7 @@ def compile_drive(
             for path, text in made():
                 files[path] = text
                 emitted(path, text)
-    return Compiled(drive, files, open_)
+    return Compiled(name, files, open_, families.shared([drive]))
 
 
 def _in_words(stage: str, name: str, work: Callable[[], T]) -> T:

@@ -16,7 +16,6 @@ from pathlib import Path
 from derive import compiler
 from derive.audit.checker.refusal import UNREADABLE, Rejected, Undecided
 from derive.audit.provenance import Standings
-from derive.emit import families
 from derive.files import replace_text
 from derive.pages import Page
 from derive.refusals import Refused
@@ -56,7 +55,7 @@ def write(page: Page, standings: Standings, folder: Path, log: compiler.Log) -> 
                 except build.CompileError as error:
                     raise _not_compiled(name, fresh / "include", str(error)) from error
         # what the table of families says of those of the tree
-        described |= families.shared([made.drive])
+        described |= made.shared
         files = {**made.files, f"c/{name}.json": json.dumps(described, indent=1, ensure_ascii=False) + "\n"}
         for path, text in files.items():
             replace_text(folder / _place(path), text)

@@ -84,6 +84,8 @@ class Page:
     operations: tuple[tuple[str, int], ...]
     counts: tuple[tuple[str, str], ...]
     functions: tuple[Function, ...]
+    open: tuple[tuple[str, str], ...]
+    """Statements that the drive's page cites and that are not proved of it, with the reason."""
 
 
 def file_name(drive: str) -> str:
@@ -116,7 +118,7 @@ def _page(name: str, generated: Mapping[str, str], functions: Mapping[str, Mappi
         + (("contact", tuple(_contact(described, rests))),),
         tuple(_symbols(described)), tuple(_definitions(described)),
         tuple((STAGES[key], count) for key, count in metadata["operations"].items()),
-        counts, tuple(_functions(name, header, rests)),
+        counts, tuple(_functions(name, header, rests)), tuple(metadata["open"].items()),
     )  # fmt: skip
 
 

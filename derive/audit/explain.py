@@ -33,9 +33,15 @@ def explain(generated: Path, name: str) -> list[str]:
         return lines + _side_conditions(generated, path, name)
     drives = sorted(path.stem for path in (generated / "c").glob("*.json"))
     if name in drives:
-        return [name, *_side_conditions(generated, f"{name}.json")]
+        return [name, *_open(generated, f"{name}.json"), *_side_conditions(generated, f"{name}.json")]
     close = difflib.get_close_matches(key, [*verdicts, *functions, *drives], 5, 0.4)
     raise Unknown(f"no equation or generated function {name!r}" + (f"; close: {', '.join(close)}" if close else ""))
+
+
+def _open(generated: Path, file: str) -> list[str]:
+    """The statements that a drive cites and that are not proved of it."""
+    found = json.loads((generated / "c" / file).read_text(encoding="utf-8"))["open"]
+    return ["", "open statements", *(f"  {name}: {reason}" for name, reason in found.items())] if found else []
 
 
 def _side_conditions(generated: Path, header: str, function: str = "") -> list[str]:
@@ -122,6 +128,9 @@ def _verdict(generated: Path, objects: dict[str, dict], verdict: dict) -> list[s
     ]
     if users:
         lines += ["", "generated functions that rest on it", *(f"  {user}" for user in users)]
+    for path in sorted((generated / "c").glob("*.json")):
+        if reason := json.loads(path.read_text(encoding="utf-8"))["open"].get(verdict["id"]):
+            lines += ["", f"open for {path.stem}: {reason}"]
     return lines + _carried(generated, verdict["id"])
 
 

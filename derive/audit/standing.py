@@ -10,7 +10,8 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import cache
 
-from derive.audit.claims import Claim, FigureClaim
+from derive.audit.checker.seal import KEY
+from derive.audit.claims import Claim, Figure, FigureClaim
 from derive.audit.described import drive_of
 from derive.audit.ledger import Chapter, Judged, Ledger, Verdict, drives_read, judged
 from derive.language.drive import citations
@@ -67,10 +68,6 @@ def _of_verdict(verdict: Verdict) -> Standing:
     return Standing(verdict.sha256[:KEY], _open(verdict), pages)
 
 
-#: Characters of a statement's key.
-KEY = 16
-
-
 def _open(verdict: Verdict) -> str:
     """Why a verdict is no proof of what is printed; "" where it is, or is for one reading of a damaged print."""
     if any(reading.parts and reading.outcome is Outcome.PROVED for reading in verdict.readings):
@@ -83,7 +80,7 @@ def _counterexample(part: Judged) -> str:
     words = "not decided by the prover"
     if part.outcome is Outcome.REFUTED:
         words = "false"
-        if instance := part.decision.instance:
+        if not isinstance(part.of, Figure) and (instance := part.decision.instance):
             values = {**instance.point.symbols, **{f"tan({a}/2)": v for a, v in instance.point.half_tangents.items()}}
             at = ", ".join(f"{name} = {value}" for name, value in values.items())
             left, right = (", ".join(f"{float(v):.6g}" for v in side) for side in (instance.lhs, instance.rhs))

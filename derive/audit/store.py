@@ -56,11 +56,11 @@ def checkers() -> dict[str, str]:
 
 
 def seal(ledger: Ledger, files: Mapping[str, str]) -> str:
-    """artifacts.json: the root hash, and per generated file its sha256 and the equations that a header names."""
+    """artifacts.json: the root hash, and per generated file its sha256 and the equations that a header names, with their keys."""
     entries = {
         name: {
             "sha256": hashlib.sha256(text.encode()).hexdigest(),
-            "equations": equations_named(text) if name.endswith(".h") else [],
+            "equations": equations_named(text) if name.endswith(".h") else {},
         }
         for name, text in sorted(files.items())
     }

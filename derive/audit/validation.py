@@ -110,7 +110,8 @@ VERIFIED = (
     ),
     (
         "Nothing was changed afterwards",
-        "The headers carry the root hash of this record, and the record their sha256. Changing one character of a "
+        "A header names each statement with the hash of its verdict, and the record its sha256: a header that was made "
+        "of other definitions cites what this record does not hold. Changing one character of a "
         "header, an equation, a certificate or a cofactor is caught; each is a test.",
     ),
 )

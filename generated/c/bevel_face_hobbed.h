@@ -6,24 +6,24 @@
  * same bits everywhere.
  *
  * Operations: setup 295, set_phi 6, R 737, R and J 2061, step 2200, observe 2459.
- * Equations (hash a1463b34669abff37c0a11ef7bfdd0b3135cb14507055d77555971a79825c129):
- *   conventions/rotations
- *   conventions/sums
- *   cylindrical_worm/contact
- *   cylindrical_worm/undercut
- *   derivation/angles
- *   derivation/arc
- *   derivation/elimination
- *   derivation/envelope
- *   derivation/invariance
- *   derivation/quotient
- *   derivation/root
- *   derivation/rotation
- *   derivation/screw
- *   derivation/step-size
- *   derivation/swept
- *   derivation/translation
- *   derivation/unit
+ * Equations, each proved of the definitions used here, with the hash of statement, definitions and proof:
+ *   conventions/rotations                a6646d6c92f95c4e
+ *   conventions/sums                     f586b608243af77f
+ *   cylindrical_worm/contact             b827d378a33edde7
+ *   cylindrical_worm/undercut            68ac2f1197755e74
+ *   derivation/angles                    57216e96445da999
+ *   derivation/arc                       a256b0d690108a3c
+ *   derivation/elimination               2ce0432da5b625c8
+ *   derivation/envelope                  753bba004bb6241b
+ *   derivation/invariance                4003539721028a25
+ *   derivation/quotient                  2e5060c20719b959
+ *   derivation/root                      b2b073c83879100f
+ *   derivation/rotation                  c50c21bd4bcf4c21
+ *   derivation/screw                     b90b2da4b2e92e04
+ *   derivation/step-size                 e18673fbe9b227e6
+ *   derivation/swept                     cc9599e328d2182c
+ *   derivation/translation               b30e13fbd3c85305
+ *   derivation/unit                      747ddca135dd554c
  */
 #ifndef MESHWRIGHT_BEVEL_FACE_HOBBED_H
 #define MESHWRIGHT_BEVEL_FACE_HOBBED_H

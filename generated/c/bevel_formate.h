@@ -6,29 +6,29 @@
  * same bits everywhere.
  *
  * Operations: setup 221, set_phi 4, R 357, R and J 967, step 1069, observe 1123.
- * Equations (hash a1463b34669abff37c0a11ef7bfdd0b3135cb14507055d77555971a79825c129):
- *   bevel/linear
- *   bevel/meshing
- *   bevel/pole
- *   conventions/rotations
- *   conventions/sums
- *   cylindrical_worm/contact
- *   cylindrical_worm/undercut
- *   derivation/angles
- *   derivation/arc
- *   derivation/elimination
- *   derivation/envelope
- *   derivation/explicit
- *   derivation/explicit-angle
- *   derivation/invariance
- *   derivation/pole
- *   derivation/quotient
- *   derivation/revolved
- *   derivation/root
- *   derivation/rotation
- *   derivation/step-size
- *   derivation/translation
- *   derivation/unit
+ * Equations, each proved of the definitions used here, with the hash of statement, definitions and proof:
+ *   bevel/linear                         93249005b38f70b1
+ *   bevel/meshing                        fe10de574f582b13
+ *   bevel/pole                           3376ac9b9e298b2d
+ *   conventions/rotations                a6646d6c92f95c4e
+ *   conventions/sums                     f586b608243af77f
+ *   cylindrical_worm/contact             b827d378a33edde7
+ *   cylindrical_worm/undercut            68ac2f1197755e74
+ *   derivation/angles                    57216e96445da999
+ *   derivation/arc                       a256b0d690108a3c
+ *   derivation/elimination               2ce0432da5b625c8
+ *   derivation/envelope                  753bba004bb6241b
+ *   derivation/explicit                  8dad59dbd7d85140
+ *   derivation/explicit-angle            eb45dfa66a82222e
+ *   derivation/invariance                4003539721028a25
+ *   derivation/pole                      68ab31e3f5b6c84c
+ *   derivation/quotient                  2e5060c20719b959
+ *   derivation/revolved                  1654fd33353f5cf8
+ *   derivation/root                      b2b073c83879100f
+ *   derivation/rotation                  c50c21bd4bcf4c21
+ *   derivation/step-size                 e18673fbe9b227e6
+ *   derivation/translation               b30e13fbd3c85305
+ *   derivation/unit                      747ddca135dd554c
  */
 #ifndef MESHWRIGHT_BEVEL_FORMATE_H
 #define MESHWRIGHT_BEVEL_FORMATE_H

@@ -6,32 +6,32 @@
  * same bits everywhere.
  *
  * Operations: setup 961, set_phi 63, R 265, R and J 672, step 747, observe 946.
- * Equations (hash a1463b34669abff37c0a11ef7bfdd0b3135cb14507055d77555971a79825c129):
- *   conventions/rotations
- *   conventions/sums
- *   cylindrical_gears/explicit
- *   cylindrical_gears/meshing
- *   cylindrical_gears/tangent
- *   cylindrical_gears/undercut
- *   cylindrical_worm/contact
- *   cylindrical_worm/undercut
- *   derivation/angles
- *   derivation/arc
- *   derivation/arccosine
- *   derivation/elimination
- *   derivation/envelope
- *   derivation/explicit
- *   derivation/invariance
- *   derivation/placement
- *   derivation/quotient
- *   derivation/relative
- *   derivation/root
- *   derivation/rotation
- *   derivation/step-size
- *   derivation/swept
- *   derivation/tangent
- *   derivation/translation
- *   derivation/unit
+ * Equations, each proved of the definitions used here, with the hash of statement, definitions and proof:
+ *   conventions/rotations                a6646d6c92f95c4e
+ *   conventions/sums                     f586b608243af77f
+ *   cylindrical_gears/explicit           e8d158acc79cc9f9
+ *   cylindrical_gears/meshing            3788dc1ca37aa3b4
+ *   cylindrical_gears/tangent            1bf8e58fc112c919
+ *   cylindrical_gears/undercut           dd7b1dec0e9ddd0b
+ *   cylindrical_worm/contact             b827d378a33edde7
+ *   cylindrical_worm/undercut            68ac2f1197755e74
+ *   derivation/angles                    57216e96445da999
+ *   derivation/arc                       a256b0d690108a3c
+ *   derivation/arccosine                 a53de571f181d8d4
+ *   derivation/elimination               2ce0432da5b625c8
+ *   derivation/envelope                  753bba004bb6241b
+ *   derivation/explicit                  8dad59dbd7d85140
+ *   derivation/invariance                4003539721028a25
+ *   derivation/placement                 309fffa82817196f
+ *   derivation/quotient                  2e5060c20719b959
+ *   derivation/relative                  2127074381094281
+ *   derivation/root                      b2b073c83879100f
+ *   derivation/rotation                  c50c21bd4bcf4c21
+ *   derivation/step-size                 e18673fbe9b227e6
+ *   derivation/swept                     cc9599e328d2182c
+ *   derivation/tangent                   a2c8e45a4465d951
+ *   derivation/translation               b30e13fbd3c85305
+ *   derivation/unit                      747ddca135dd554c
  */
 #ifndef MESHWRIGHT_CYLINDRICAL_GEARS_H
 #define MESHWRIGHT_CYLINDRICAL_GEARS_H

@@ -6,52 +6,52 @@
  * same bits everywhere.
  *
  * Operations: setup 553, set_phi 2, R 303, R and J 768, step 849, observe 1021.
- * Equations (hash a1463b34669abff37c0a11ef7bfdd0b3135cb14507055d77555971a79825c129):
- *   conventions/rotations
- *   conventions/sums
- *   conventions/wheel-axis
- *   cylindrical_worm/axis
- *   cylindrical_worm/axis-quadratic
- *   cylindrical_worm/both-systems
- *   cylindrical_worm/contact
- *   cylindrical_worm/explicit
- *   cylindrical_worm/linear
- *   cylindrical_worm/meshing
- *   cylindrical_worm/normal
- *   cylindrical_worm/sum-angle
- *   cylindrical_worm/twist
- *   cylindrical_worm/undercut
- *   derivation/angles
- *   derivation/arc
- *   derivation/arccosine
- *   derivation/both-turns
- *   derivation/elimination
- *   derivation/envelope
- *   derivation/explicit
- *   derivation/explicit-angle
- *   derivation/invariance
- *   derivation/merge-sum
- *   derivation/placement
- *   derivation/pole
- *   derivation/quotient
- *   derivation/relative
- *   derivation/revolved
- *   derivation/root
- *   derivation/rotation
- *   derivation/step-size
- *   derivation/swing
- *   derivation/tangent
- *   derivation/translation
- *   derivation/unit
- *   helicoids/helicoid
- *   helicoids/rounding-join
- *   helicoids/rounding-normal
- *   helicoids/rounding-tip
- *   helicoids/zc-limit
- *   helicoids/zc-meshing
- *   helicoids/zc-normal
- *   rack-and-pinion/eq-5
- *   rack-and-pinion/rack-form
+ * Equations, each proved of the definitions used here, with the hash of statement, definitions and proof:
+ *   conventions/rotations                a6646d6c92f95c4e
+ *   conventions/sums                     f586b608243af77f
+ *   conventions/wheel-axis               b11b8a1b52cb987d
+ *   cylindrical_worm/axis                974731caa1b080a1
+ *   cylindrical_worm/axis-quadratic      99e0438e14bad8b7
+ *   cylindrical_worm/both-systems        f2ea46a262c6455a
+ *   cylindrical_worm/contact             b827d378a33edde7
+ *   cylindrical_worm/explicit            3cc7114423070eac
+ *   cylindrical_worm/linear              6a535667c9706bdc
+ *   cylindrical_worm/meshing             9ec39ec80e83af48
+ *   cylindrical_worm/normal              5aa6d3da35e2cc56
+ *   cylindrical_worm/sum-angle           027bc7d8e47dcf96
+ *   cylindrical_worm/twist               d34f97032bd0904a
+ *   cylindrical_worm/undercut            68ac2f1197755e74
+ *   derivation/angles                    57216e96445da999
+ *   derivation/arc                       a256b0d690108a3c
+ *   derivation/arccosine                 a53de571f181d8d4
+ *   derivation/both-turns                aff2984bab226b45
+ *   derivation/elimination               2ce0432da5b625c8
+ *   derivation/envelope                  753bba004bb6241b
+ *   derivation/explicit                  8dad59dbd7d85140
+ *   derivation/explicit-angle            eb45dfa66a82222e
+ *   derivation/invariance                4003539721028a25
+ *   derivation/merge-sum                 b34d31788b7f33af
+ *   derivation/placement                 309fffa82817196f
+ *   derivation/pole                      68ab31e3f5b6c84c
+ *   derivation/quotient                  2e5060c20719b959
+ *   derivation/relative                  2127074381094281
+ *   derivation/revolved                  1654fd33353f5cf8
+ *   derivation/root                      b2b073c83879100f
+ *   derivation/rotation                  c50c21bd4bcf4c21
+ *   derivation/step-size                 e18673fbe9b227e6
+ *   derivation/swing                     f1388c921d322a4e
+ *   derivation/tangent                   a2c8e45a4465d951
+ *   derivation/translation               b30e13fbd3c85305
+ *   derivation/unit                      747ddca135dd554c
+ *   helicoids/helicoid                   4e63a9c72faf278c
+ *   helicoids/rounding-join              ead4ef02ca87d424
+ *   helicoids/rounding-normal            66a6e5450b3eeba5
+ *   helicoids/rounding-tip               291c6548eb7b521e
+ *   helicoids/zc-limit                   0f307659b254a31e
+ *   helicoids/zc-meshing                 3e0f5bc07e873bf3
+ *   helicoids/zc-normal                  0ec55edadf538c80
+ *   rack-and-pinion/eq-5                 6516d2b0b57de053
+ *   rack-and-pinion/rack-form            c6b7c92fd8b18dde
  */
 #ifndef MESHWRIGHT_CYLINDRICAL_WORM_ZC_ZC_H
 #define MESHWRIGHT_CYLINDRICAL_WORM_ZC_ZC_H

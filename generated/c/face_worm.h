@@ -6,36 +6,36 @@
  * same bits everywhere.
  *
  * Operations: setup 306, set_phi 14, R 268, R and J 681, step 809, observe 967.
- * Equations (hash a1463b34669abff37c0a11ef7bfdd0b3135cb14507055d77555971a79825c129):
- *   conventions/rotations
- *   conventions/sums
- *   cylindrical_worm/contact
- *   cylindrical_worm/undercut
- *   derivation/angles
- *   derivation/arc
- *   derivation/arccosine
- *   derivation/circle
- *   derivation/elimination
- *   derivation/envelope
- *   derivation/invariance
- *   derivation/placement
- *   derivation/quotient
- *   derivation/relative
- *   derivation/revolved
- *   derivation/root
- *   derivation/rotation
- *   derivation/step-size
- *   derivation/swept
- *   derivation/swing
- *   derivation/tangent
- *   derivation/translation
- *   derivation/unit
- *   face-worm/eq-10
- *   face_worm/blade-normal
- *   face_worm/cone-normal
- *   face_worm/fillet-join
- *   face_worm/fillet-tangent
- *   face_worm/harmonic
+ * Equations, each proved of the definitions used here, with the hash of statement, definitions and proof:
+ *   conventions/rotations                a6646d6c92f95c4e
+ *   conventions/sums                     f586b608243af77f
+ *   cylindrical_worm/contact             b827d378a33edde7
+ *   cylindrical_worm/undercut            68ac2f1197755e74
+ *   derivation/angles                    57216e96445da999
+ *   derivation/arc                       a256b0d690108a3c
+ *   derivation/arccosine                 a53de571f181d8d4
+ *   derivation/circle                    73c12a169cba24ff
+ *   derivation/elimination               2ce0432da5b625c8
+ *   derivation/envelope                  753bba004bb6241b
+ *   derivation/invariance                4003539721028a25
+ *   derivation/placement                 309fffa82817196f
+ *   derivation/quotient                  2e5060c20719b959
+ *   derivation/relative                  2127074381094281
+ *   derivation/revolved                  1654fd33353f5cf8
+ *   derivation/root                      b2b073c83879100f
+ *   derivation/rotation                  c50c21bd4bcf4c21
+ *   derivation/step-size                 e18673fbe9b227e6
+ *   derivation/swept                     cc9599e328d2182c
+ *   derivation/swing                     f1388c921d322a4e
+ *   derivation/tangent                   a2c8e45a4465d951
+ *   derivation/translation               b30e13fbd3c85305
+ *   derivation/unit                      747ddca135dd554c
+ *   face-worm/eq-10                      cdb27c9891935a91
+ *   face_worm/blade-normal               72e63bbe8d017080
+ *   face_worm/cone-normal                be5211e770a81070
+ *   face_worm/fillet-join                b8e4f73c6e892775
+ *   face_worm/fillet-tangent             949515bf02774e74
+ *   face_worm/harmonic                   85744407ba4a188f
  */
 #ifndef MESHWRIGHT_FACE_WORM_H
 #define MESHWRIGHT_FACE_WORM_H

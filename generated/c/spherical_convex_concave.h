@@ -6,31 +6,31 @@
  * same bits everywhere.
  *
  * Operations: setup 249, set_phi 7, R 145, R and J 376, step 447, observe 695.
- * Equations (hash a1463b34669abff37c0a11ef7bfdd0b3135cb14507055d77555971a79825c129):
- *   conventions/rotations
- *   conventions/sums
- *   cylindrical_worm/contact
- *   cylindrical_worm/undercut
- *   derivation/angles
- *   derivation/elimination
- *   derivation/envelope
- *   derivation/explicit
- *   derivation/invariance
- *   derivation/quotient
- *   derivation/relative
- *   derivation/root
- *   derivation/rotation
- *   derivation/step-size
- *   derivation/swept
- *   derivation/swing
- *   derivation/tangent
- *   derivation/translation
- *   derivation/unit
- *   spherical_gears/explicit
- *   spherical_gears/meshing
- *   spherical_gears/normal
- *   spherical_gears/tangent
- *   spherical_gears/undercut
+ * Equations, each proved of the definitions used here, with the hash of statement, definitions and proof:
+ *   conventions/rotations                a6646d6c92f95c4e
+ *   conventions/sums                     f586b608243af77f
+ *   cylindrical_worm/contact             b827d378a33edde7
+ *   cylindrical_worm/undercut            68ac2f1197755e74
+ *   derivation/angles                    57216e96445da999
+ *   derivation/elimination               2ce0432da5b625c8
+ *   derivation/envelope                  753bba004bb6241b
+ *   derivation/explicit                  8dad59dbd7d85140
+ *   derivation/invariance                4003539721028a25
+ *   derivation/quotient                  2e5060c20719b959
+ *   derivation/relative                  2127074381094281
+ *   derivation/root                      b2b073c83879100f
+ *   derivation/rotation                  c50c21bd4bcf4c21
+ *   derivation/step-size                 e18673fbe9b227e6
+ *   derivation/swept                     cc9599e328d2182c
+ *   derivation/swing                     f1388c921d322a4e
+ *   derivation/tangent                   a2c8e45a4465d951
+ *   derivation/translation               b30e13fbd3c85305
+ *   derivation/unit                      747ddca135dd554c
+ *   spherical_gears/explicit             7cf7f2f80c2e9cf4
+ *   spherical_gears/meshing              fd3ed2f487d75aae
+ *   spherical_gears/normal               e20cef777b8be516
+ *   spherical_gears/tangent              84671318d52b31a5
+ *   spherical_gears/undercut             4320933b7b9bfe1e
  */
 #ifndef MESHWRIGHT_SPHERICAL_CONVEX_CONCAVE_H
 #define MESHWRIGHT_SPHERICAL_CONVEX_CONCAVE_H

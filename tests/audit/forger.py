@@ -10,6 +10,7 @@ from derive.audit.checker.record import read_record, root_of
 from derive.audit.claims import FigureClaim
 from derive.audit.documents import rack_and_pinion, recess_action
 from derive.audit.ledger import Chapter, build
+from derive.audit.standing import of_ledger
 from derive.files import replace_text
 
 DESCRIPTIONS = Path(__file__).parents[2] / "generated" / "descriptions"
@@ -17,8 +18,8 @@ KINDS = ("source", "step", "equation", "certificate", "verdict")
 
 
 HEADER = """/* A drive.
- * Equations (hash {root}):
- *   rack-and-pinion/eq-1
+ * Equations, each proved of the definitions used here:
+ *   rack-and-pinion/eq-1 {key}
  */
 double x = a - b;
 """
@@ -36,7 +37,8 @@ def small_ledger():
 def written(small_ledger, folder):
     """That record on disk below ``folder``, with a page and one generated header; the record's own folder."""
     texts = store.record_files(small_ledger) | {"index.html": "<p>proved</p>\n", "audit.tex": "proved\n"}
-    files = {"c/drive.h": HEADER.format(root=small_ledger.root)}
+    key = of_ledger(small_ledger)["rack-and-pinion/eq-1"].key
+    files = {"c/drive.h": HEADER.format(key=key)}
     files |= {f"audit/{name}": text for name, text in texts.items()}
     for name in sorted({step["read"]["drive"] for step in small_ledger.objects.values() if step.get("read")}):
         files[f"descriptions/{name}.json"] = (DESCRIPTIONS / f"{name}.json").read_text(encoding="utf-8")
@@ -121,11 +123,21 @@ class Forger:
 
 
 def reseal(folder):
-    """Root and seal made anew over the files as they are."""
-    root = root_of({json.loads(line)["sha256"]: 0 for name in ("ledger", "certificates")
-                          for line in (folder / f"{name}.jsonl").read_text().splitlines()})  # fmt: skip
+    """Root, keys of statements in headers and seal made anew over the files as they are."""
+    objects = [json.loads(line) for name in ("ledger", "certificates")
+               for line in (folder / f"{name}.jsonl").read_text().splitlines()]  # fmt: skip
+    root = root_of({item["sha256"]: 0 for item in objects})
     for path in (folder.parent / "c").glob("*.h"):
-        path.write_text(re.sub(r"\(hash [0-9a-f]{64}\)", f"(hash {root})", path.read_text()))
+        text = path.read_text()
+        for item in objects:
+            if item["object"] == "verdict":
+                text = re.sub(rf"( {re.escape(item['id'])}) +[0-9a-f]{{16}}", rf"\1 {item['sha256'][:16]}", text)
+        path.write_text(text)
+    seal(folder, root)
+
+
+def seal(folder, root):
+    """The seal of the files as they are."""
     files = {
         path.relative_to(folder.parent).as_posix(): path.read_text(encoding="utf-8")
         for path in sorted(folder.parent.rglob("*"))

@@ -1,6 +1,5 @@
 """Forged records, every hash, link, root and seal made anew by the forger: what is said must be wrong in itself."""
 
-import hashlib
 import json
 import re
 
@@ -8,7 +7,7 @@ import pytest
 
 from derive.audit.checker import certificates, check_record
 from derive.audit.checker.refusal import Rejected
-from tests.audit.forger import Forger, reseal
+from tests.audit.forger import Forger, reseal, seal
 
 MERSENNE = 2**61 - 1
 
@@ -493,9 +492,9 @@ def emptied_list_of_files(folder):
 
 def emptied_equations_of_a_header(folder):
     path = folder / "artifacts.json"
-    seal = json.loads(path.read_text())
-    seal["files"]["c/drive.h"]["equations"] = []
-    path.write_text(json.dumps(seal, indent=1, sort_keys=True) + "\n")
+    sealed = json.loads(path.read_text())
+    sealed["files"]["c/drive.h"]["equations"] = {}
+    path.write_text(json.dumps(sealed, indent=1, sort_keys=True) + "\n")
 
 
 def added_header(folder):
@@ -516,13 +515,18 @@ def header_on_what_is_false(folder):
     reseal(folder)
 
 
-def header_of_another_root(folder):
+def header_of_other_definitions(folder):
+    """Made when the statement read something else: its key is that of then."""
     path = folder.parent / "c" / "drive.h"
-    path.write_text(re.sub(r"\(hash [0-9a-f]{64}\)", f"(hash {'0' * 64})", path.read_text()))
-    seal = folder / "artifacts.json"
-    old = json.loads(seal.read_text())
-    old["files"]["c/drive.h"]["sha256"] = hashlib.sha256(path.read_bytes()).hexdigest()
-    seal.write_text(json.dumps(old, indent=1, sort_keys=True) + "\n")
+    path.write_text(re.sub(r"(eq-1) [0-9a-f]{16}", rf"\1 {'0' * 16}", path.read_text()))
+    seal(folder, json.loads((folder / "artifacts.json").read_text())["root"])
+
+
+def function_on_what_is_not_listed(folder):
+    path = folder.parent / "c" / "drive.h"
+    comment = "/* Equations: rack-and-pinion/eq-4. */\nstatic inline void drive_eval(void)\n{\n}\n"
+    path.write_text(path.read_text() + comment)
+    reseal(folder)
 
 
 def header_without_its_equations(folder):
@@ -580,7 +584,8 @@ FILES = [
     (removed_page, "audit.tex is missing"),
     (header_on_what_is_not_held, "not a proved statement"),
     (header_on_what_is_false, "not a proved statement"),
-    (header_of_another_root, "does not carry the root"),
+    (header_of_other_definitions, "rests on another rack-and-pinion/eq-1"),
+    (function_on_what_is_not_listed, "which the header does not list"),
     (header_without_its_equations, "names no equation"),
     (manifest_of_other_files, "manifest"),
     (emptied_record, "does not end|cannot be read|Expecting"),

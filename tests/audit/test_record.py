@@ -13,7 +13,8 @@ import pytest
 from derive.audit import __main__ as command
 from derive.audit import ledger, record
 from derive.audit.checker.record import read_record
-from derive.audit.provenance import Proved, provenance
+from derive.audit.provenance import cited, provenance
+from derive.audit.standing import standings
 from derive.drives import catalogue
 from derive.passes.schedule import schedule
 
@@ -81,14 +82,16 @@ def test_latex_is_plain_letters_that_every_engine_knows():
     assert text.count(r"\begin{") == text.count(r"\end{")
 
 
-def test_every_header_carries_root_and_equations():
-    root = json.loads((GENERATED / "audit" / "artifacts.json").read_text(encoding="utf-8"))["root"]
+def test_every_header_names_its_statements_by_the_keys_of_the_record():
+    verdicts = read_record(GENERATED / "audit").values()
+    keys = {item["id"]: item["sha256"][:16] for item in verdicts if item["object"] == "verdict"}
     headers = [path.with_suffix(".h") for path in (GENERATED / "c").glob("*.json")]
     assert len(headers) >= 10
     for path in headers:
         text = path.read_text(encoding="utf-8")
-        assert root in text
         functions = record.functions_of(text)
+        named = {key for named in functions.values() for key in named}
+        assert named and all(re.search(rf"\n \*   {re.escape(key)} +{keys[key]}\n", text) for key in named)
         assert any(name.endswith("_eval") for name in functions)
         assert any("_flank_wheel" in name for name in functions)
 
@@ -125,31 +128,27 @@ def test_verify_reports_rejection(tmp_path, capsys):
     assert "REJECTED" in capsys.readouterr().err
 
 
-def test_a_function_may_only_rest_on_what_is_proved():
-    plan = schedule(catalogue()["spherical_spur_spur"]())
-    with pytest.raises(ValueError, match="conventions/rotations, which the record does not hold"):
-        provenance(Proved.by({}), plan)
-
-
-def test_a_new_tool_brings_its_own_provenance():
-    """The statement that a surface names appears in every function that reads it; one that is not proved is an error
-    that names it.
+def test_a_citation_holds_of_what_was_proved_and_of_nothing_else():
+    """A statement that a surface names appears in every function that reads it; one that is false, unknown, or proved
+    of the definitions of other pages is open, with the reason, and appears in none.
     """
-    proved = Proved.by(read_record(GENERATED / "audit"))
     plan = schedule(catalogue()["spherical_spur_spur"]())
     drive = plan.drive
 
-    def with_wheel_on(statement):
-        on = replace(drive, wheel=replace(drive.wheel, surface=drive.wheel.surface.on(statement)))
-        return provenance(proved, replace(plan, drive=on))["equations_of"]
+    def with_wheel_on(*statements):
+        on = replace(drive, wheel=replace(drive.wheel, surface=drive.wheel.surface.on(*statements)))
+        steps = cited(replace(plan, drive=on))
+        return provenance(standings({key for keys in steps.values() for key in keys}), steps)
 
-    used = with_wheel_on("helicoids/zc-limit")
-    assert all("helicoids/zc-limit" in used[name] for name in ("flank_wheel", "eval", "step", "observe"))
-    assert "helicoids/zc-limit" not in used["flank_pinion"]
-    with pytest.raises(ValueError, match="spherical_spur_spur rests on derivation/wish, which the record does not"):
-        with_wheel_on("derivation/wish")
-    with pytest.raises(ValueError, match="rack-and-pinion/twice, which is not a proved statement"):
-        with_wheel_on("rack-and-pinion/twice")
+    true = "derivation/circle"
+    other, unknown, false = "helicoids/zc-limit", "derivation/wish", "recess-action/eq-7"
+    found = with_wheel_on(true, other, unknown, false)
+    assert all(true in found["equations_of"][name] for name in ("flank_wheel", "eval", "step", "observe"))
+    assert true not in found["equations_of"]["flank_pinion"]
+    assert found["open"].keys() == {other, unknown, false} and not found["open"].keys() & found["keys"].keys()
+    assert re.search(r"proved of the definitions of .*grinding_arc\.py, not of .*test_record\.py", found["open"][other])
+    assert found["open"][unknown] == "the audit record has no statement of this name"
+    assert re.match(r"false: at .* its left side is", found["open"][false])
 
 
 def test_explain_shows_side_conditions_of_function_statement_and_drive(capsys):

@@ -2,7 +2,7 @@
 
 import json
 
-from derive import command
+from derive import command, generated
 
 DRIVE = "spherical_spur_spur"
 
@@ -24,7 +24,7 @@ def test_only_what_an_earlier_run_wrote_is_removed(tmp_path):
         (tmp_path / name).write_text("")
     written = {"c/old_drive.h": "", "c/drive.h": "", "c/gone.h": ""}
     (tmp_path / "manifest.json").write_text(json.dumps({"files": written}))
-    command._remove_superseded(tmp_path, {"c/drive.h": ""})
+    generated.replace(tmp_path, {"c/drive.h": ""})
     left = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path.is_file()}
     assert left == {"c/own.txt", "c/drive.h", ".ssh/key", "manifest.json"}
 
@@ -32,7 +32,7 @@ def test_only_what_an_earlier_run_wrote_is_removed(tmp_path):
 def test_a_folder_without_a_manifest_loses_nothing(tmp_path):
     (tmp_path / "c").mkdir()
     (tmp_path / "c" / "own.txt").write_text("")
-    command._remove_superseded(tmp_path, {})
+    generated.replace(tmp_path, {})
     assert (tmp_path / "c" / "own.txt").exists()
 
 
@@ -62,7 +62,7 @@ def test_a_folder_that_cannot_be_written_is_named(tmp_path, capsys):
 def test_what_a_killed_run_left_is_removed(tmp_path):
     (tmp_path / "c").mkdir()
     (tmp_path / "c" / ".drive.h.1234.part").write_text("half")
-    command._remove_superseded(tmp_path, {})
+    generated.replace(tmp_path, {})
     assert not list((tmp_path / "c").iterdir())
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from derive import outside
+from derive import drive_folder, pages
 from derive.audit.checker import attempts
 from derive.passes.equations import derive
 from derive.passes.pivot_order import reduce
@@ -139,8 +139,8 @@ def test_a_generating_motion_may_turn_by_any_polynomial_of_its_angle(tmp_path):
     path = tmp_path / "uneven.py"
     path.write_text(text.replace("Rz(-ratio * theta)", "Rz(-ratio * theta - theta**3 / 1000)"), encoding="utf-8")
     assert path.read_text(encoding="utf-8") != text
-    (page,) = outside.catalogue_of(path).values()
-    plan = reduce(derive(page()))
+    (page,) = pages.of_file(path)
+    plan = reduce(derive(page.build()))
     assert len(plan.change) == len(plan.unknowns) == 5
 
 
@@ -165,7 +165,7 @@ def test_what_the_checker_of_c_does_not_foresee_is_neither_right_nor_wrong(heade
     }
     for reason, wrong in changed.items():
         assert wrong != header
-        found = outside.checked(wrong)
+        found = drive_folder.checked(wrong)
         open_ = [verdict for verdict in found.values() if verdict != "holds"]
         assert open_ and all(verdict.startswith("not decided: ") and reason in verdict for verdict in open_), found
 
@@ -173,13 +173,13 @@ def test_what_the_checker_of_c_does_not_foresee_is_neither_right_nor_wrong(heade
 def test_what_is_wrong_in_c_does_not_hold_and_the_entry_counts_it(header):
     wrong = re.sub(r"J\[7\] = (.+);", r"J[7] = 2.0 * (\1);", header, count=1)
     wrong = re.sub(r"J\[7\] = 2.0 \* \((\w+)\);", r"J[7] = 2.0 * \1;", wrong)
-    found = outside.checked(wrong)
+    found = drive_folder.checked(wrong)
     assert found["jacobian of the residual"] == "does not hold: eval: J[1][2] is not the derivative of R[1]"
-    about = {"name": "a_drive", "specification_hash": "", "root_hash": "", "equations": {}, "equations_of": {}}
-    entry = outside.audit_entry(about, {}, found | {"one more": "not decided: for a reason"}, None)
+    about = {"name": "a_drive", "specification_hash": "", "equations": {}, "equations_of": {}, "keys": {}, "open": {}}
+    entry = drive_folder.audit_entry(about, found | {"one more": "not decided: for a reason"}, None)
     failed = entry["counts"]["does not hold"]
     assert failed > 0 and entry["counts"]["not decided"] == 1 and sum(entry["counts"].values()) == len(found) + 1
-    assert outside.undecided_or_wrong(entry).endswith(f" holds, {failed} does not hold, 1 not decided")
+    assert drive_folder.undecided_or_wrong(entry).endswith(f" holds, {failed} does not hold, 1 not decided")
 
 
 def test_what_a_c_compiler_refuses_is_said_by_the_function_of_the_description(tmp_path):

@@ -154,7 +154,5 @@ def check_content(equation: dict, text, source: dict, printed: list[dict]) -> No
 
 
 def is_proved(verdict: dict, objects: dict[str, dict]) -> bool:
-    """Proved, or ambiguous with a proved reading (damaged print)."""
-    return verdict["status"] in ("proved", "proved_with_correction") or any(
-        outcome_of(reading, verdict, objects) == "proved" for reading in verdict["readings"]
-    )
+    """Proved as printed, or in one reading of a damaged print."""
+    return any(outcome_of(reading, verdict, objects) == "proved" for reading in verdict["readings"])

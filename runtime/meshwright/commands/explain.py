@@ -1,4 +1,5 @@
-"""Say what a flag, status, event, reason or quantity of the results means, or a key; without WORD, all but the keys.
+"""Say what a flag, status, event, reason or quantity of the results means, a key, or how a statement of the audit record
+stands for the drives that are made; without WORD, flags to quantities.
 
 A name of the JSON, with its unit, is that of the quantity; a word that has no entry is sought in those of the others.
 """
@@ -64,7 +65,7 @@ def run(options):
         typed = "_".join(" ".join(options.word).split())
         names = [name for meant in known.values() for name in meant]
         misspelt = difflib.get_close_matches(word, [*names, *keys()], 1, MISSPELT)
-        lines = _entries(word, known) or _key(typed) or _unknowns(typed)
+        lines = _entries(word, known) or _key(typed) or _unknowns(typed) or _statements(typed)
         lines = lines or ([] if misspelt else _spoken_of(word, known))
         if not lines:
             near = misspelt or _held(word, names) or difflib.get_close_matches(word, [*names, *keys()], 1, SIMILAR)
@@ -96,14 +97,33 @@ def _key(word):
     return [f"key {key} {text}" for text in keys().get(key, ()) if not table or text.startswith(f"[{table}]")]
 
 
+def _made():
+    """The names of the drives that are made already."""
+    return [name for name in description.drives() if any((folder / f"{name}.json").exists() for folder in folders())]
+
+
 def _unknowns(word):
     """What an unknown of the equations of contact means, in the drives that are made already."""
     found = {}
-    made = [name for name in description.drives() if any((folder / f"{name}.json").exists() for folder in folders())]
-    for drive in map(description.described, made):
+    for drive in map(description.described, _made()):
         for text in (f"{u['meaning']}, {u['unit']}" for u in drive["unknowns"] if u["name"] == word):
             found.setdefault(f"unknown {word}: {text}", {})[drive["family"]] = None
     return [f"{text} ({', '.join(families)})" for text, families in found.items()]
+
+
+def _statements(word):
+    """What is proved of a statement of the audit record, for each drive that is made already; of a drive, what is open."""
+    lines = []
+    for name in _made():
+        drive = description.described(name)
+        if word in drive["keys"]:
+            lines.append(f"statement {word}: proved of the definitions of {name} (key {drive['keys'][word]})")
+        for statement, reason in drive["open"].items():
+            if word in (statement, name):
+                lines.append(f"statement {statement}: open for {name}: {reason}")
+        if word == name and not lines:
+            lines.append(f"drive {name}: {drive['title']}; {len(drive['keys'])} statements proved, none open")
+    return lines
 
 
 def _spoken_of(word, known):
