@@ -36,11 +36,11 @@ from derive.language.validate_sample import (
     validate_ratio,
     validate_regions,
 )
+from derive.pages import Page
 from derive.passes import enclosed, guards
 from derive.passes.arrange import arrange, side_by_side, unfused
 from derive.passes.completion import at_end
 from derive.passes.equations import derive
-from derive.pages import Page
 from derive.passes.joints import joints
 from derive.passes.pivot_order import reduce
 from derive.passes.plan import Schedule

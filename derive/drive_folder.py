@@ -98,9 +98,9 @@ def _place(path):
 def audit_entry(description: Mapping, found: Mapping[str, str], source: Path | None) -> dict:
     """What is proved for a drive and what is not, as plain data.
 
-    ``proved``: the statements behind it with their keys, by the functions that rest on them. ``not_proved``:
-    statements that it names and that are open, with the reason. ``checked``: see :func:`checked`; ``counts`` how many of these
-    checks found what. ``not_checked``: what nothing here decides.
+    ``proved``: the statements behind it, by the functions that rest on them, and their ``keys``. ``not_proved``:
+    statements that it names and that are open, with the reason. ``checked``: see :func:`checked`; ``counts`` how many
+    of these checks found what. ``not_checked``: what nothing here decides.
     """
     origin = None if source is None else {"file": source.name, "sha256": compiler.sha256(source.read_text("utf-8"))}
     return {

@@ -1,6 +1,5 @@
 """The record as a whole: quick to prove, quick to re-check, the same every time, readable from the command line."""
 
-import json
 import os
 import re
 import subprocess

@@ -1,5 +1,6 @@
-"""Say what a flag, status, event, reason or quantity of the results means, a key, or how a statement of the audit record
-stands for the drives that are made; without WORD, flags to quantities.
+"""Say what a flag, status, event, reason or quantity of the results means, or a key; without WORD, all but the keys.
+
+Of a statement of the audit record, or of a drive, it says what is proved and what is open.
 
 A name of the JSON, with its unit, is that of the quantity; a word that has no entry is sought in those of the others.
 """
@@ -112,7 +113,7 @@ def _unknowns(word):
 
 
 def _statements(word):
-    """What is proved of a statement of the audit record, for each drive that is made already; of a drive, what is open."""
+    """How a statement of the audit record stands for each drive that is made already; or what is open for a drive."""
     lines = []
     for name in _made():
         drive = description.described(name)
