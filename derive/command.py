@@ -18,7 +18,7 @@ from difflib import get_close_matches
 from functools import partial
 from pathlib import Path
 
-from derive import beside, compiler, drives, outside
+from derive import beside, compiler, drives, outside, products
 from derive.audit.checker.record import read_record
 from derive.audit.checker.refusal import Rejected
 from derive.audit.provenance import Proved
@@ -164,6 +164,11 @@ def _some(names):
 
 
 def _proved():
+    if not (compiler.RECORD / "certificates.jsonl").exists():  # git does not keep them
+        from derive.audit import record
+
+        with log("prove", "audit record"):
+            return Proved.by(record.ledger().objects)
     with log("prove", "audit record, as written"):
         return Proved.by(read_record(compiler.RECORD))
 
@@ -180,10 +185,10 @@ def _everything(every):
         validate_outlines(listed)
         table = families.table(listed)
     files = _of_drives([*known] if every else packaged(table), Proved.by(ledger.objects))
-    files["families.json"] = families.text(table)
+    files |= {"families.json": families.text(table), "README.md": products.readme()}
     with log("emit", "audit record"):
         files |= record.files(ledger, files)
-    files["manifest.json"] = compiler.manifest(files)
+    files["manifest.json"] = products.manifest(files)
     return files
 
 
@@ -232,5 +237,6 @@ def _remove_superseded(folder, files):
 
 def _list_in_manifest(folder, files):
     """Add the files of some drives to a folder's manifest."""
-    if written := _written(folder):
-        replace_text(folder / "manifest.json", compiler.manifest_of(written | compiler.hashes(files)))
+    written = _written(folder)
+    if written and (now := written | products.hashes(files)) != written:
+        replace_text(folder / "manifest.json", products.manifest_of(now))

@@ -14,7 +14,6 @@ routines that are made, and add nothing to them. Statements are proved once for 
 is looked up when its operations are known.
 """
 
-import hashlib
 import json
 from dataclasses import replace
 from functools import partial
@@ -134,24 +133,3 @@ def emit(plan, origin):
     evaluated = [*guards.functions(moved), *guards.moving(moved), *guards.bounded(moved), *tangents]
     metadata_of["side_conditions"] = guards.side_conditions(moved, evaluated)
     yield f"{c}.json", json.dumps(metadata_of, indent=1, ensure_ascii=False) + "\n"
-
-
-def hashes(files):
-    """SHA-256 of generated files by their path."""
-    return {path: sha256(text) for path, text in files.items()}
-
-
-def sha256(text):
-    """SHA-256 of a text."""
-    return hashlib.sha256(text.encode()).hexdigest()
-
-
-def manifest(files):
-    """The list of all generated files with their hashes."""
-    return manifest_of(hashes(files))
-
-
-def manifest_of(hashes):
-    """The list of files with these hashes."""
-    listed = dict(sorted(hashes.items()))
-    return json.dumps({"schema": "meshwright.manifest/1", "files": listed}, indent=1) + "\n"

@@ -12,7 +12,7 @@ import tempfile
 from functools import partial
 from pathlib import Path
 
-from derive import beside, compiler, drives
+from derive import beside, compiler, drives, products
 from derive.audit.checker.refusal import UNREADABLE, Rejected, Undecided
 from derive.emit import families
 from derive.files import replace_text
@@ -155,7 +155,7 @@ def audit_entry(description, open_, found, source):
     statements that it names and the record does not prove, with the reason. ``checked``: see :func:`checked`;
     ``counts`` how many of these checks found what. ``not_checked``: what nothing here decides.
     """
-    origin = None if source is None else {"file": source.name, "sha256": compiler.sha256(source.read_text("utf-8"))}
+    origin = None if source is None else {"file": source.name, "sha256": products.sha256(source.read_text("utf-8"))}
     return {
         "schema": "meshwright.drive-audit/1",
         "drive": description["name"],
