@@ -177,13 +177,17 @@ def _everything(every):
     """Every generated file, all of it proved anew; of the drives the packaged ones, or every one."""
     from derive.audit import record
 
-    with log("prove", "audit record"):
-        ledger = record.ledger()
+    def proved():
+        with log("prove", "audit record"):
+            return record.ledger()
+
+    proving = beside.begun(proved)
     with log("define", "families"):
         known = drives.catalogue()
         listed = [build() for build in known.values()]
         validate_outlines(listed)
         table = families.table(listed)
+    ledger = proving()
     files = _of_drives([*known] if every else packaged(table), Proved.by(ledger.objects))
     files |= {"families.json": families.text(table), "README.md": products.readme()}
     with log("emit", "audit record"):
