@@ -3,9 +3,9 @@ into one archive. Needs the standard library alone.
 
 As a program::
 
-    python -m derive.products missing        exit status 1 if anything is that is made on demand, or is of another manifest
-    python -m derive.products check FOLDER   compare what derive has made in FOLDER; take from there what git does not keep
-    python -m derive.products pack FILE      the archive of what git does not keep, as the manifest pins it
+    python -m derive.products missing        exit status 1 if any of the latter is missing, or of another manifest
+    python -m derive.products check FOLDER   compare what derive has made in FOLDER; take the latter from there
+    python -m derive.products pack FILE      write the archive, which must be the one that the manifest pins
 """
 
 import argparse
@@ -85,7 +85,7 @@ The rest is made in its places by `make setup build`, and is in no commit:
 
 {table("made on demand", MADE)}
 
-An installed package has the headers in `meshwright/_generated/include`, JSON and CasADi files in `meshwright/_generated`.
+An installed package has the headers in `meshwright/_generated/include`, JSON and CasADi files beside that folder.
 `make dist` packs all that is made on demand into `dist/generated.tar.gz`, for those who have no Python: unpack it here.
 The manifest pins it by the SHA-256 of the tar inside (`gunzip -c dist/generated.tar.gz | sha256sum`), which is the same
 on every machine; how well it is compressed may not be.

@@ -50,7 +50,8 @@ def test_gitignore_says_what_the_list_says():
 
 
 def test_git_ignores_every_generated_file_that_is_not_kept_and_no_other():
-    paths = [*products.listed(), "manifest.json", "benchmark/contacts.json", "benchmark/designs/any.toml", "site/a.html"]
+    more = ("manifest.json", "benchmark/contacts.json", "benchmark/designs/any.toml", "site/a.html")
+    paths = [*products.listed(), *more]
     said = git("check-ignore", "--no-index", "--stdin", input="".join(f"generated/{path}\n" for path in paths))
     assert set(said.splitlines()) == {f"generated/{path}" for path in paths if not products.kept(path)}
 

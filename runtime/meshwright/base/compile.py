@@ -342,7 +342,7 @@ def _copy(source, target):
 
 
 def ahead(names, generated, folder, objects):
-    """Compile those units of drives that include one generated header which is there; :func:`drives` finds their objects.
+    """Compile those units of drives that include one generated header, where it is there; :func:`drives` finds them.
 
     Two headers may be of different runs of derive as long as not all have been made.
     """
@@ -377,7 +377,7 @@ def main(arguments=None):
     parser.add_argument("--objects", type=Path, required=True, help="folder for object files")
     parser.add_argument("--now", nargs="*", metavar="DRIVE", help="compile these only; default: all that it holds")
     parser.add_argument("--whole", action="store_true", help="compile also what solves and proves many at once")
-    parser.add_argument("--ahead", action="store_true", help="only what needs one generated header, where that is there")
+    parser.add_argument("--ahead", action="store_true", help="only what needs one generated header that is there")
     options = parser.parse_args(arguments)
     source = Path(__file__).resolve().parents[2] / "c"
     try:

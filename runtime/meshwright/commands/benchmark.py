@@ -1,10 +1,10 @@
 """Write a set of certified contacts that other programs can be tested against: designs, tables, a manifest.
 
 A folder of design files, one table of all contacts as CSV and JSON, and an RO-Crate manifest. Every packaged design is
-a case, aligned and with each of its misalignments: a design file and the keys that the case changes. Each case is enclosed at decimal angles over one pitch, and beside
-points where branches of contact cross. ``benchmark_cases.toml`` names further ones: angles of published tables, contact
-that is nearly a line, flanks that touch on an edge first. Exit status 1 if a contact that floating point finds cannot
-be certified.
+a case, aligned and with each of its misalignments: a design file and the keys that the case changes. Each case is
+enclosed at decimal angles over one pitch, and beside points where branches of contact cross. ``benchmark_cases.toml``
+names further ones: angles of published tables, contact that is nearly a line, flanks that touch on an edge first. Exit
+status 1 if a contact that floating point finds cannot be certified.
 """
 
 import hashlib
