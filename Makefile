@@ -11,9 +11,10 @@ OBJECTS := $(VENV)/objects
 PUBLISHED := recess-action-full
 compiled = $1 runtime/meshwright/base/compile.py generated $(SHIP) $$($1 -m derive.packaged) --objects $(OBJECTS)
 shown = $(compiled) --now $$($1 -m derive.packaged $(PUBLISHED))
+DERIVED = $(PY) -m derive.products
 CHECKERS := check_description check check_code check_bounded check_print
 
-.PHONY: help setup generate audit kernel coq bench build check examples run lint test solver cmake test-fe validate site wheels
+.PHONY: help setup generate audit kernel coq bench build check examples run lint test solver cmake test-fe validate site wheels dist
 .PHONY: wheels-run machines precompiled preshown fuzz benchmark coverage compilers sanitizers emulators
 
 # Compiled modules are kept, whatever the environment says: each of many short processes would compile them anew.
@@ -73,26 +74,29 @@ coq:
 		&& apt-get update -qq && apt-get install -y -qq coq libcoq-coquelicot; } >/dev/null 2>&1 \
 		|| echo "coqc not found and not installable here: the proofs are not put to Coq's kernel"
 
-# The core library and the objects of the drives that packaged designs use, beside what the Python package ships of them;
-# with DRIVES="name …" or DRIVES=all also those, derived where generated/ does not hold them. What is not built is compiled
-# when it is first used.
+# What of generated/ is not in git, where it is missing; of that the core library and the objects of the drives that
+# packaged designs use, beside what the Python package ships of them; with DRIVES="name …" or DRIVES=all also those. What
+# is not built is compiled when it is first used.
 build: $(LEAN)
+	@$(DERIVED) missing || $(MAKE) --no-print-directory --jobs 2 DRIVES= generate precompiled
 	@$(call compiled,$(PY))
 	@test -z "$(DRIVES)" || $(PY) -m derive $(DRIVES) --into $(SHIP)
 
-# The same from what is committed, by the system's Python, while packages are being installed; and the published drive alone.
+# What can be compiled of what is committed, by the system's Python, while packages are being installed and the rest is
+# derived; and of the published drive alone.
 precompiled:
-	@$(call compiled,$(PYTHON))
+	@$(call compiled,$(PYTHON)) --ahead
 
 preshown:
-	@$(call shown,$(PYTHON))
+	@$(call shown,$(PYTHON)) --ahead
 
-# Regenerate into a temporary folder and fail on any byte of difference.
+# Regenerate into a temporary folder and fail on any byte of difference from the manifest and from what git keeps; what it
+# does not keep is taken from there.
 check: setup
-	folder=$$(mktemp -d) && $(PY) -m derive --output $$folder && diff -r -x site -x benchmark $$folder generated && rm -r $$folder
+	folder=$$(mktemp -d) && $(PY) -m derive --output $$folder && $(DERIVED) check $$folder && rm -r $$folder
 
 # Set up, regenerate, prove, compile, and solve a published drive beside the paper's table. What is committed of it is
-# compiled meanwhile, and compiled again only if regenerating has changed it; other drives are compiled when first used.
+# compiled meanwhile, and again only if regenerating has changed it; other drives are compiled when they are first used.
 run:
 	$(MAKE) --no-print-directory --jobs 2 generate preshown
 	@$(call shown,$(PY))
@@ -107,7 +111,7 @@ $(LINT): $(READY)
 	$(PY) -m pip install --quiet --editable '.[lint]'
 	touch $@
 
-# Set up, build, derive a second time and compare, and run the tests but for the longer ones.
+# Set up, derive and compare with what is committed, build of that, and run the tests but for the longer ones.
 test:
 	$(MAKE) --no-print-directory --jobs 3 check precompiled solver
 	$(MAKE) --no-print-directory build cmake
@@ -161,6 +165,10 @@ bench: setup build
 site: setup build
 	$(PY) -m pip install --quiet --editable '.[site,live]'
 	$(PY) runtime/site/build.py
+
+# One archive of what of generated/ is not in git, dist/generated.tar.gz, which generated/manifest.json pins.
+dist: setup build
+	$(DERIVED) pack dist/generated.tar.gz
 
 # Wheels for Linux, macOS and Windows in dist/, all cross-compiled here; with TARGETS="linux-aarch64 …" those.
 wheels: setup build

@@ -26,10 +26,10 @@ from functools import partial
 from pathlib import Path
 
 from derive import compiler, drive_folder, generated
+from derive.audit.ledger import Ledger
 from derive.audit.standing import UNKNOWN, Standing, of_ledger, standings
 from derive.compiler import Compiled
 from derive.emit import families
-from derive.files import remove_parts
 from derive.language.validate_outlines import validate_outlines
 from derive.packaged import packaged
 from derive.pages import EVERY, Page, of_tree, pages
@@ -106,7 +106,6 @@ def _some(folder: Path, words: Sequence[str]) -> list[Compiled]:
         if word.endswith(".py"):
             raise Refused(f"{word}: what a file defines is written to a folder of its own: add --into FOLDER")
     made = [compiler.compile_drive(page, standings, log, submit=submit) for page in pages(words)]
-    remove_parts(folder)
     generated.add(folder, {path: text for compiled in made for path, text in compiled.files.items()})
     return made
 
@@ -115,12 +114,16 @@ def _everything(folder: Path, every: bool) -> list[Compiled]:
     """Replace every generated file, all of it proved anew; of the drives the packaged ones, or every one."""
     from derive.audit import record
 
-    with log("prove", "audit record"):
-        ledger = record.ledger()
+    def prove() -> Ledger:
+        with log("prove", "audit record"):
+            return record.ledger()
+
+    proved = submit(prove)
     with log("define", "families"), told("define", "the families"):
         listed = [page.build() for page in pages([EVERY])]
         validate_outlines(listed)
         table = families.table(listed)
+    ledger = proved()
     made = _compiled(of_tree([drive.name for drive in listed] if every else packaged(table)), of_ledger(ledger))
     files = {path: text for compiled in made for path, text in compiled.files.items()}
     files["families.json"] = families.text(table)

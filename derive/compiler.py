@@ -14,7 +14,6 @@ routines that are made, and add nothing to them. Proving goes on beside the othe
 is false or not decided of today's definitions is open, said, and cited nowhere.
 """
 
-import hashlib
 import json
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
@@ -63,10 +62,10 @@ def package():
     return SHIPPED
 
 
-#: In a checkout; the installed package has both among its own files.
-RECORD, RUNTIME = ROOT / "generated" / "audit", ROOT / "runtime" / "c"
+#: In a checkout; the installed package has it among its own files.
+RUNTIME = ROOT / "runtime" / "c"
 if not RUNTIME.exists():
-    RECORD, RUNTIME = ROOT / "derive" / "record", package() / "include"
+    RUNTIME = package() / "include"
 
 
 @dataclass(frozen=True)
@@ -186,24 +185,3 @@ def emit(plan: Schedule, origin: Callable[[], Provenance]) -> Iterator[tuple[str
     evaluated = [*guards.functions(moved), *guards.moving(moved), *guards.bounded(moved), *tangents]
     metadata_of["side_conditions"] = guards.side_conditions(moved, evaluated)
     yield f"{c}.json", json.dumps(metadata_of, indent=1, ensure_ascii=False) + "\n"
-
-
-def hashes(files):
-    """SHA-256 of generated files by their path."""
-    return {path: sha256(text) for path, text in files.items()}
-
-
-def sha256(text):
-    """SHA-256 of a text."""
-    return hashlib.sha256(text.encode()).hexdigest()
-
-
-def manifest(files):
-    """The list of all generated files with their hashes."""
-    return manifest_of(hashes(files))
-
-
-def manifest_of(hashes):
-    """The list of files with these hashes."""
-    listed = dict(sorted(hashes.items()))
-    return json.dumps({"schema": "meshwright.manifest/1", "files": listed}, indent=1) + "\n"

@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 
-from derive import compiler
+from derive import compiler, products
 from derive.audit.checker.refusal import UNREADABLE, Rejected, Undecided
 from derive.audit.provenance import Standings
 from derive.files import replace_text
@@ -102,7 +102,7 @@ def audit_entry(description: Mapping, found: Mapping[str, str], source: Path | N
     statements that it names and that are open, with the reason. ``checked``: see :func:`checked`; ``counts`` how many
     of these checks found what. ``not_checked``: what nothing here decides.
     """
-    origin = None if source is None else {"file": source.name, "sha256": compiler.sha256(source.read_text("utf-8"))}
+    origin = None if source is None else {"file": source.name, "sha256": products.sha256(source.read_text("utf-8"))}
     return {
         "schema": "meshwright.drive-audit/1",
         "drive": description["name"],

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 
-from derive import compiler
+from derive import products
 from derive.files import remove_parts, replace_text
+from derive.products import MANIFEST
 from derive.refusals import Refused
-
-MANIFEST = "manifest.json"
 
 
 def replace(folder: Path, files: Mapping[str, str]) -> None:
@@ -18,15 +16,17 @@ def replace(folder: Path, files: Mapping[str, str]) -> None:
     for path in _written(folder).keys() - files.keys():
         (folder / path).unlink(missing_ok=True)
     remove_parts(folder)
-    _write(folder, {**files, MANIFEST: compiler.manifest(files)})
+    whole = {**files, "README.md": products.readme()}
+    _write(folder, {**whole, MANIFEST: products.manifest(whole)})
 
 
 def add(folder: Path, files: Mapping[str, str]) -> None:
     """Write the files of some drives, and enter them where there is a manifest."""
     known = _written(folder)
+    remove_parts(folder)
     _write(folder, files)
-    if known:
-        _write(folder, {MANIFEST: compiler.manifest_of(known | compiler.hashes(files))})
+    if known and (now := known | products.hashes(files)) != known:
+        _write(folder, {MANIFEST: products.manifest_of(now)})
 
 
 def _write(folder: Path, files: Mapping[str, str]) -> None:
@@ -34,16 +34,11 @@ def _write(folder: Path, files: Mapping[str, str]) -> None:
         replace_text(folder / path, text)
 
 
-def _written(folder: Path) -> dict[str, str]:
-    """Path → hash of what earlier runs wrote there, by the manifest."""
-    manifest = folder / MANIFEST
-    if not manifest.exists():
+def _written(folder: Path) -> Mapping[str, str]:
+    """Path → hash of what earlier runs wrote there, by the manifest; nothing where there is none."""
+    if not (folder / MANIFEST).exists():
         return {}
     try:
-        files = json.loads(manifest.read_text(encoding="utf-8"))["files"]
-        outside = [path for path in files if Path(path).is_absolute() or ".." in Path(path).parts]
-    except (ValueError, KeyError, TypeError) as error:
-        raise Refused(f"{manifest} is damaged ({error}): remove it; what it listed stays then") from error
-    if outside:
-        raise Refused(f"{manifest} names {outside[0]}, which is outside its folder: remove it")
-    return files
+        return products.listed(folder)
+    except products.Damaged as error:
+        raise Refused(str(error)) from error

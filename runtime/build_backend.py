@@ -1,11 +1,13 @@
 """Build backend of the package: setuptools, with the C libraries compiled first and a wheel named for its platform."""
 
 import json
+import os
 import runpy
-import shutil
+import subprocess
+import sys
 import sysconfig
+import tomllib
 import warnings
-from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -20,10 +22,8 @@ def _program(path):
     return SimpleNamespace(**runpy.run_path(str(ROOT / path)))
 
 
+GENERATED = ROOT / "generated"
 SHIPPED = ROOT / "runtime" / "meshwright" / "_generated"
-
-#: The audit record, by which derive looks up what a drive rests on: in a checkout below generated/.
-RECORD = ("ledger.jsonl", "certificates.jsonl")
 
 #: What a source archive holds beside the package, in the words of setuptools: all that the library is built from.
 SOURCES = """
@@ -37,22 +37,41 @@ global-exclude *.py[cod]
 """
 
 
+def get_requires_for_build_wheel(config_settings=None):
+    """What deriving needs, where files of generated/ are missing that git does not keep."""
+    if not _program("derive/products.py").missing(GENERATED):
+        return []
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    return [*project["dependencies"], *project["optional-dependencies"]["derive"]]
+
+
+get_requires_for_build_sdist = get_requires_for_build_wheel
+
+
+def _derived():
+    """Make the files of generated/ that are missing."""
+    if _program("derive/products.py").missing(GENERATED):
+        paths = (str(ROOT), str(ROOT / "runtime"), os.environ.get("PYTHONPATH"))
+        environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, paths))}
+        if subprocess.run([sys.executable, "-m", "derive"], cwd=ROOT, env=environment).returncode:
+            raise SystemExit("files of generated/ are missing and could not be derived: see above, or run `make build`")
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     """A wheel with the compiled libraries; it runs on any processor of this platform, and with any Python 3.
 
     With the setting ``libraries = "built"`` it holds those that ``make build`` has left in the checkout.
     """
     settings = dict(config_settings or {})
-    generated = ROOT / "generated"
-    families = json.loads((generated / "families.json").read_text(encoding="utf-8"))
+    _derived()
+    families = json.loads((GENERATED / "families.json").read_text(encoding="utf-8"))
     drives = _program("derive/packaged.py").packaged(families)
-    arguments = [str(generated), str(SHIPPED), *drives, "--objects", str(ROOT / "build" / "objects"), "--whole"]
+    arguments = [str(GENERATED), str(SHIPPED), *drives, "--objects", str(ROOT / "build" / "objects"), "--whole"]
     if settings.pop("libraries", None) != "built" and _program("runtime/meshwright/base/compile.py").main(arguments):
         raise SystemExit("the libraries do not compile: see above")
     platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
     options = {**settings, "--build-option": ["--python-tag", "py3", "--plat-name", platform]}
-    with _record(generated / "audit"):
-        return build_meta.build_wheel(wheel_directory, options, metadata_directory)
+    return build_meta.build_wheel(wheel_directory, options, metadata_directory)
 
 
 def build_editable(wheel_directory, config_settings=None, metadata_directory=None):
@@ -62,21 +81,9 @@ def build_editable(wheel_directory, config_settings=None, metadata_directory=Non
         return build_meta.build_editable(wheel_directory, config_settings, metadata_directory)
 
 
-@contextmanager
-def _record(audit):
-    """The audit record among derive's own files while the wheel is made."""
-    place = ROOT / "derive" / "record"
-    place.mkdir(exist_ok=True)
-    try:
-        for name in RECORD:
-            shutil.copy(audit / name, place / name)
-        yield
-    finally:
-        shutil.rmtree(place)
-
-
 def build_sdist(sdist_directory, config_settings=None):
-    """A source archive from which the wheel can be built."""
+    """A source archive from which the wheel can be built without deriving anything."""
+    _derived()
     manifest = Path("MANIFEST.in")
     manifest.write_text(SOURCES, encoding="utf-8")
     try:

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from derive import products
+
 # as the command line does, which tests call in a process that has NumPy already: see meshwright.cli
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 # what modules hold lives as long as the process: it is searched for garbage neither while they are imported nor later
@@ -16,6 +18,20 @@ ROOT = Path(__file__).resolve().parent.parent
 
 #: Folders whose files read the same analyses, which take long.
 TOGETHER = ("report",)
+
+
+def unbuilt(generated=products.GENERATED, library=ROOT / "runtime/meshwright/_generated/libmeshwright.so"):
+    """What is to be done first, in words, in a checkout that is not built; else nothing."""
+    lacking = [path for path in products.made(generated) if not (generated / path).exists()]
+    if not lacking and library.exists():
+        return ""
+    return f"this checkout is not built ({generated / lacking[0] if lacking else library} is missing): make setup build"
+
+
+def pytest_configure(config):
+    """Say it once in place of an error a test."""
+    if not hasattr(config, "workerinput") and (words := unbuilt()):
+        pytest.exit(words, returncode=2)
 
 
 def pytest_collection_finish():

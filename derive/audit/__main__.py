@@ -76,7 +76,7 @@ def _kernel(folder: Path, output: Path | None) -> int:
 
 
 def _html(generated: Path, output: Path) -> int:
-    from derive import compiler
+    from derive import products
     from derive.audit import record
 
     named = json.loads((generated / "audit" / "artifacts.json").read_text(encoding="utf-8"))["files"]
@@ -85,7 +85,7 @@ def _html(generated: Path, output: Path) -> int:
     for name, text in written.items():
         replace_text(output / name.removeprefix("audit/"), text)
     if output.resolve() == (generated / "audit").resolve():
-        replace_text(generated / "manifest.json", compiler.manifest({**texts, **written}))
+        replace_text(generated / "manifest.json", products.manifest({**texts, **written}))
     print(output / "index.html")
     return 0
 

@@ -56,7 +56,7 @@ def checkers() -> dict[str, str]:
 
 
 def seal(ledger: Ledger, files: Mapping[str, str]) -> str:
-    """artifacts.json: the root hash, and per generated file its sha256 and the equations that a header names (id: key)."""
+    """artifacts.json: the root hash, and per generated file its sha256 and the equations that a header names."""
     entries = {
         name: {
             "sha256": hashlib.sha256(text.encode()).hexdigest(),

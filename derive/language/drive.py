@@ -147,6 +147,9 @@ class DesignSystem:
     homotopy: bool = False
     definitions: Definitions = field(default_factory=Definitions)
 
+    def __post_init__(self) -> None:
+        remember(self.name, f"{self.name}_fill")
+
 
 @dataclass(frozen=True)
 class Region:

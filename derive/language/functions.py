@@ -28,6 +28,7 @@ from derive.language.origin import cited
 from derive.language.replace import replaced
 from derive.language.symbols import Quantity
 from derive.language.vectors import Number, Vector
+from derive.language.written import remember
 
 
 @dataclass(frozen=True)
@@ -81,6 +82,7 @@ class Function:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "rests_on", cited(self.rests_on))
+        remember(self.name)
 
 
 #: How names of functions begin that say sizes of solid teeth.

@@ -47,9 +47,13 @@ def _is_standard(file: str) -> bool:
 
 
 def place_of(message: str) -> str:
-    """The line of the page that wrote the first name in a message of which that is known, or ""."""
-    quoted = re.findall(r"'([^']*)'", message)
-    for word in (*quoted, *_WORD.findall(message)):
+    """The line of the page that wrote the first name in a message of which that is known, or "".
+
+    What is quoted comes first, the drive with which the message begins last.
+    """
+    drive, _, rest = message.partition(": ")
+    quoted = re.findall(r"'([^']*)'", rest)
+    for word in (*quoted, *_WORD.findall(rest), drive):
         for name in (word, word.rpartition(".")[2]):
             if name in _places:
                 return line(*_places[name])

@@ -101,7 +101,7 @@ def derived():
 def _derive(monkeypatch, files, *arguments):
     monkeypatch.setattr(command, "_some", lambda names: files)
     everything = files | {"families.json": "{}\n"}
-    everything["manifest.json"] = command.compiler.manifest(everything)
+    everything["manifest.json"] = command.products.manifest(everything)
     monkeypatch.setattr(command, "_everything", lambda every: everything)
 
     def run(place):
@@ -124,7 +124,7 @@ def test_files_whose_writing_was_killed_anywhere_end_as_the_same_bytes(
             for name, text in old.items():
                 (place / name).parent.mkdir(exist_ok=True)
                 (place / name).write_text(text)
-            (place / "manifest.json").write_text(command.compiler.manifest(old))
+            (place / "manifest.json").write_text(command.products.manifest(old))
         run(place)
 
     _all_alike(over_an_older, tmp_path, times, seed=2)

@@ -26,7 +26,7 @@ def check(folder, cases):
     assert len(rows) == sum(len(case["points"]) for case in cases)
     graph = json.loads((folder / "ro-crate-metadata.json").read_text(encoding="utf-8"))["@graph"]
     files = {entry["@id"]: entry for entry in graph if entry["@type"] == "File"}
-    assert {case["design"] for case in cases} < set(files)
+    assert {case["design"] for case in cases} | {"contacts.json", "contacts.csv"} == set(files)
     for name, entry in files.items():
         assert hashlib.sha256((folder / name).read_bytes()).hexdigest() == entry["sha256"]
     (root,) = [entry for entry in graph if entry["@id"] == "./"]
@@ -38,7 +38,7 @@ def test_each_case_has_a_design_file_and_bounds_that_hold_what_it_solves(tmp_pat
     check(tmp_path, cases)
     assert len(cases) >= 4  # aligned, and each misalignment
     for case in cases[:2]:
-        drive = Drive.load(str(tmp_path / case["design"]))
+        drive = Drive.load(str(tmp_path / case["design"])).with_(**case["changes"])
         point = case["points"][2]
         assert point["outcome"] == "unique"
         result = drive.tca([float(point["pinion_angle_deg"]) * 3.141592653589793 / 180])

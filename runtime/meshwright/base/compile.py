@@ -341,6 +341,21 @@ def _copy(source, target):
         temporary.write_bytes(content)
 
 
+def ahead(names, generated, folder, objects):
+    """Compile those units of drives that include one generated header, where it is there; :func:`drives` finds them.
+
+    Two headers may be of different runs of derive as long as not all have been made.
+    """
+    target, jobs = native(), []
+    for name, unit in ((name, unit) for name in names for unit in DRIVE.units):
+        job = _job(unit, DRIVE, name, folder, folder, objects, target)
+        *others, header = job[-1]
+        if not others and (generated / "c" / header.name).exists():
+            _copy(generated / "c" / header.name, header)
+            jobs.append(job)
+    _compiled(jobs)
+
+
 def take(names, generated, folder):
     """Copy the generated files of drives from ``generated`` (c/, casadi/) into a folder of drives."""
     for name in names:
@@ -362,14 +377,18 @@ def main(arguments=None):
     parser.add_argument("--objects", type=Path, required=True, help="folder for object files")
     parser.add_argument("--now", nargs="*", metavar="DRIVE", help="compile these only; default: all that it holds")
     parser.add_argument("--whole", action="store_true", help="compile also what solves and proves many at once")
+    parser.add_argument("--ahead", action="store_true", help="only what needs one generated header that is there")
     options = parser.parse_args(arguments)
     source = Path(__file__).resolve().parents[2] / "c"
     try:
         core(source, options.folder, options.objects)
+        now = options.drive if options.now is None else options.now
+        if options.ahead:
+            ahead(now, options.generated, options.folder, options.objects)
+            return 0
         take(options.drive, options.generated, options.folder)
         _copy(options.generated / "families.json", options.folder / "families.json")
         drop_superseded(options.drive, options.folder, options.folder)
-        now = options.drive if options.now is None else options.now
         parts = PARTS if options.whole else (DRIVE,)
         drives(now, options.folder, options.folder, options.objects, parts=parts)
     except (CompileError, OSError) as error:

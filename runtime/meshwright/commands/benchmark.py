@@ -1,10 +1,10 @@
 """Write a set of certified contacts that other programs can be tested against: designs, tables, a manifest.
 
 A folder of design files, one table of all contacts as CSV and JSON, and an RO-Crate manifest. Every packaged design is
-a case, aligned and with each of its misalignments; each case is enclosed at decimal angles over one pitch, and beside
-points where branches of contact cross. ``benchmark_cases.toml`` names further ones: angles of published tables, contact
-that is nearly a line, flanks that touch on an edge first. Exit status 1 if a contact that floating point finds cannot
-be certified.
+a case, aligned and with each of its misalignments: a design file and the keys that the case changes. Each case is
+enclosed at decimal angles over one pitch, and beside points where branches of contact cross. ``benchmark_cases.toml``
+names further ones: angles of published tables, contact that is nearly a line, flanks that touch on an edge first. Exit
+status 1 if a contact that floating point finds cannot be certified.
 """
 
 import hashlib
@@ -46,11 +46,13 @@ def run(options):
     with progress(len(names)) as step:
         for name in names:
             step(f"certifying {name}")
-            cases += [case(folder, words, drive, degrees(drive)) for words, drive in variants(name)]
-            cases += [further(folder, entry) for entry in more if entry["from"] == name]
+            drive = Drive.load(name)
+            write_text(str(folder / "designs" / f"{name}.toml"), toml_text(drive.design.given()))
+            cases += [case(words, name, drive, changes) for words, changes in variants(name, drive)]
+            cases += [further(name, drive, entry) for entry in more if entry["from"] == name]
     header = list(dict.fromkeys(key for c in cases for p in c["points"] for key in row(c, p)))
     rows = [row(c, p) for c in cases for p in c["points"]]
-    write_json(str(folder / "contacts.json"), {"schema": "meshwright.benchmark/1", "cases": cases})
+    write_json(str(folder / "contacts.json"), {"schema": "meshwright.benchmark/2", "cases": cases})
     write_csv(str(folder / "contacts.csv"), header, [[r.get(key, "") for key in header] for r in rows])
     write_json(str(folder / "ro-crate-metadata.json"), manifest(folder, cases))
     shown = sum(p["outcome"] == "unique" for c in cases for p in c["points"])
@@ -58,13 +60,12 @@ def run(options):
     return 0 if all(p["outcome"] == "unique" or p["reason"] != "wide" for c in cases for p in c["points"]) else 1
 
 
-def variants(name):
-    """(name, drive) of a packaged design and of each of its misalignments."""
-    drive = Drive.load(name)
-    yield name, drive
+def variants(name, drive):
+    """Name and changes of a packaged design and of each of its misalignments."""
+    yield name, {}
     for p in drive.design.description["parameters"]:
         if p["table"] == "misalignment" and p["key"].endswith(("_mm", "_deg")):
-            yield f"{name}--{p['key']}", drive.with_(misalignment={p["key"]: MISALIGNED})
+            yield f"{name}--{p['key']}", {"misalignment": {p["key"]: MISALIGNED}}
 
 
 def degrees(drive):
@@ -77,17 +78,20 @@ def degrees(drive):
     return sorted(angles)
 
 
-def further(folder, entry):
-    """One case of the file of further ones."""
+def further(name, drive, entry):
+    """One case of the file of further ones, of the packaged design ``name``."""
     changes = {table: entry[table] for table in ("design", "misalignment", "blank") if table in entry}
-    drive = Drive.load(entry["from"]).with_(**changes)
     about, first = entry["about"], entry.get("first_contact", False)
-    return case(folder, entry["name"], drive, degrees_of(entry["angles"]), about, first)
+    return case(entry["name"], name, drive, changes, degrees_of(entry["angles"]), about, first)
 
 
-def case(folder, name, drive, angles, about=None, first_contact=False):
-    """One case as plain data; its design file is written. ``angles``: exact degrees."""
-    write_text(str(folder / "designs" / f"{name}.toml"), toml_text(drive.design.given()))
+def case(words, name, drive, changes, angles=None, about=None, first_contact=False):
+    """One case as plain data: ``drive``, of the design file ``name``, with ``changes``, table → key → value.
+
+    ``angles``: exact degrees; by default those of :func:`degrees`.
+    """
+    drive = drive.with_(**changes)
+    angles = degrees(drive) if angles is None else angles
     result = drive.tca(np.radians([float(a) for a in angles]))
     found = drive.certify(result.angles, result, angles)
     points = [_point(found, k, angle, found.error_arcsec()[k]) for k, angle in enumerate(angles)]
@@ -96,7 +100,7 @@ def case(folder, name, drive, angles, about=None, first_contact=False):
         for k, (point, proof) in enumerate(zip(points, proofs.to_plain(result), strict=True)):
             point["first_contact"] = firsts.point(k, result.error)
             point["tangency_comes_first"] = proof["outcome"]
-    return {"name": name, "about": about, "design": f"designs/{name}.toml", "points": points}
+    return {"name": words, "about": about, "design": f"designs/{name}.toml", "changes": changes, "points": points}
 
 
 def _point(found, k, angle, error):
@@ -141,7 +145,7 @@ def row(named, point):
 def manifest(folder, cases):
     """The RO-Crate 1.1 manifest of what was written."""
     kinds = {".toml": "application/toml", ".json": "application/json", ".csv": "text/csv"}
-    names = ["contacts.json", "contacts.csv", *(c["design"] for c in cases)]
+    names = dict.fromkeys(("contacts.json", "contacts.csv", *(c["design"] for c in cases)))
     files = [_file(folder / name, name, kinds) for name in names]
     root = {
         "@id": "./", "@type": "Dataset", "name": "Certified contacts of gear drives", "datePublished": DATE,

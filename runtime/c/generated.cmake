@@ -1,0 +1,58 @@
+# DRIVES: those to build in. Of their headers git keeps one a drive; the others are derived here where they are missing or
+# are not those that generated/manifest.json lists.
+set(MANIFEST ${CHECKOUT}/generated/manifest.json)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${MANIFEST})
+set(ENDINGS .h _lanes.h _sensitivity.h _bounded.h _certified.h _certify.h)
+
+# LISTED: the drives of the manifest; DRIVES: those asked for, or all; MISSING: those of them that lack a header.
+macro(find_drives)
+  set(LISTED "")
+  set(MISSING "")
+  file(STRINGS ${MANIFEST} LINES REGEX "\"c/")
+  foreach(LINE ${LINES})
+    string(REGEX MATCH "\"c/([^\"]+)\": \"([0-9a-f]+)\"" LINE "${LINE}")
+    set(HASH_${CMAKE_MATCH_1} ${CMAKE_MATCH_2})
+    if(CMAKE_MATCH_1 MATCHES "^(.+)\\.json$")
+      list(APPEND LISTED ${CMAKE_MATCH_1})
+    endif()
+  endforeach()
+  set(DRIVES ${MESHWRIGHT_DRIVES})
+  if(NOT DRIVES)
+    set(DRIVES ${LISTED})
+  endif()
+  foreach(DRIVE ${DRIVES})
+    if(NOT DRIVE IN_LIST LISTED)
+      message(FATAL_ERROR "MESHWRIGHT_DRIVES: there is no drive ${DRIVE} in ${CHECKOUT}/generated, which has ${LISTED}; "
+        "others are made by python -m derive ${DRIVE}")
+    endif()
+    foreach(ENDING ${ENDINGS})
+      set(HASH "is missing")
+      if(EXISTS ${GENERATED}/${DRIVE}${ENDING})
+        file(SHA256 ${GENERATED}/${DRIVE}${ENDING} HASH)
+      endif()
+      if(NOT HASH STREQUAL "${HASH_${DRIVE}${ENDING}}")
+        list(APPEND MISSING ${DRIVE})
+        break()
+      endif()
+    endforeach()
+  endforeach()
+endmacro()
+
+find_drives()
+if(MISSING)
+  set(SAID "there is no Python here")
+  find_program(MESHWRIGHT_PYTHON NAMES python3 python HINTS ${CHECKOUT}/.venv/bin ${CHECKOUT}/.venv/Scripts)
+  if(MESHWRIGHT_PYTHON)
+    message(STATUS "python -m derive ${MESHWRIGHT_DRIVES}: headers that git does not keep")
+    set(ENV{PYTHONPATH} ${CHECKOUT}/runtime)
+    execute_process(COMMAND ${MESHWRIGHT_PYTHON} -m derive ${MESHWRIGHT_DRIVES} WORKING_DIRECTORY ${CHECKOUT}
+      OUTPUT_VARIABLE SAID ERROR_VARIABLE SAID)
+  endif()
+  find_drives()
+endif()
+if(MISSING)
+  message(FATAL_ERROR "Headers of ${MISSING} are missing in ${GENERATED}, and could not be derived. "
+    "Run `make build` in ${CHECKOUT}, which needs Python 3.11 or later, or unpack what `make dist` packs elsewhere:\n"
+    "  tar -xzf generated.tar.gz -C ${CHECKOUT}/generated\n"
+    "What failed: ${SAID}")
+endif()
