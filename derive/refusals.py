@@ -36,6 +36,8 @@ def told(stage: str, name: str) -> Iterator[None]:
 
 def words(stage: str, name: str, error: Exception) -> str:
     """What an error of Python's means for a drive in a stage."""
+    if isinstance(error, SyntaxError) and error.filename and error.lineno:
+        return f"{written.line(error.filename, error.lineno)}: {error.msg}; correct the line"
     said = f"{type(error).__name__}: {error}" if not isinstance(error, ValueError) else str(error)
     if isinstance(error, KeyError):
         said = f"there is no {error}"
