@@ -25,7 +25,7 @@ from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
-from derive import compiler, drive_folder, generated
+from derive import compiler, drive_folder, generated, products
 from derive.audit.ledger import Ledger
 from derive.audit.standing import UNKNOWN, Standing, of_ledger, standings
 from derive.compiler import Compiled
@@ -126,7 +126,7 @@ def _everything(folder: Path, every: bool) -> list[Compiled]:
     ledger = proved()
     made = _compiled(of_tree([drive.name for drive in listed] if every else packaged(table)), of_ledger(ledger))
     files = {path: text for compiled in made for path, text in compiled.files.items()}
-    files["families.json"] = families.text(table)
+    files |= {"families.json": families.text(table), "README.md": products.readme()}
     with log("emit", "audit record"):
         files |= record.files(ledger, files)
     generated.replace(folder, files)

@@ -16,8 +16,7 @@ def replace(folder: Path, files: Mapping[str, str]) -> None:
     for path in _written(folder).keys() - files.keys():
         (folder / path).unlink(missing_ok=True)
     remove_parts(folder)
-    whole = {**files, "README.md": products.readme()}
-    _write(folder, {**whole, MANIFEST: products.manifest(whole)})
+    _write(folder, {**files, MANIFEST: products.manifest(files)})
 
 
 def add(folder: Path, files: Mapping[str, str]) -> None:

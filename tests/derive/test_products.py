@@ -169,14 +169,14 @@ def test_a_folder_without_a_manifest_is_named(tmp_path, capsys):
 
 
 def test_a_drive_derived_alone_leaves_a_manifest_that_lists_it_as_it_is(tmp_path):
-    from derive import command
+    from derive import generated
 
     shutil.copy(products.GENERATED / "manifest.json", tmp_path)
     before = (tmp_path / "manifest.json").read_bytes()
     texts = {p: (products.GENERATED / p).read_text("utf-8") for p in products.listed() if p.startswith("c/spherical")}
-    command._list_in_manifest(tmp_path, texts)
+    generated.add(tmp_path, texts)
     assert (tmp_path / "manifest.json").read_bytes() == before
-    command._list_in_manifest(tmp_path, {"c/own.h": ""})
+    generated.add(tmp_path, {"c/own.h": ""})
     assert products.listed(tmp_path) == products.listed() | {"c/own.h": products.sha256("")}
     with pytest.raises(products.Damaged, match="pins no archive"):
         products.pack(Path(tmp_path, "a.tar.gz"), tmp_path)
