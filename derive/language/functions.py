@@ -85,6 +85,35 @@ class Function:
         remember(self.name)
 
 
+#: What the analyses read of a function, by its name or, where that ends in "_", by how its name begins.
+READ: dict[str, tuple[str, ...]] = {
+    "generation": ("point", "normal", "phi_hob", "psi_hob", "point_wheel", "first_type"),
+    "profile_pinion": ("point", "normal", "growth", "axial"),
+    "profile_tool": ("point", "normal", "growth", "axial"),
+    "profile_range_": ("pitch_point", "scale"),
+    "rack_sizes": (
+        "axial_pitch_pinion", "cutting_angle", "cutting_distance", "end_radius_tool", "module", "oversize",
+        "reference_radius_pinion", "reference_radius_tool", "root_radius_pinion", "same_profile",
+        "throat_radius_wheel", "tip_radius_pinion", "tip_radius_wheel", "turns",
+    ),
+    "section": ("psi_fixed_hob",),
+    "tool_point": ("psi_fixed_hob",),
+    "second_type": ("psi_fixed_hob",),
+    "meshing_axes": ("discriminant", "point_1", "direction_1", "point_2", "direction_2"),
+    "undercut_range_": ("first", "last", "middle"),
+    "tool_clearance": ("fillet_end", "edge_root", "edge_tip", "inner", "outer"),
+}  # fmt: skip
+#: Functions of which none is read without the others.
+WITH_GENERATION = (
+    "generation", "profile_pinion", "profile_tool", "profile_range_pinion", "profile_range_tool", "rack_sizes",
+)  # fmt: skip
+
+
+def read_of(name: str) -> tuple[str, ...]:
+    """The results that analyses read of a function of this name."""
+    return next((READ[key] for key in READ if name == key or (key.endswith("_") and name.startswith(key))), ())
+
+
 #: How names of functions begin that say sizes of solid teeth.
 SOLID = "solid_"
 

@@ -16,7 +16,7 @@ import sympy as sp
 from derive.language.definitions import Definitions
 from derive.language.differentiate import partial
 from derive.language.drive import PATH, Drive, Margin, Region, Role
-from derive.language.functions import OUTLINE, SOLID, SOLID_UNITS
+from derive.language.functions import OUTLINE, SOLID, SOLID_UNITS, WITH_GENERATION, read_of
 from derive.language.printed import misnamed
 from derive.language.refusal import DescriptionError
 from derive.language.sampled import COMPUTED, vanishes
@@ -282,6 +282,12 @@ def _functions(drive: Drive) -> Iterator[str]:
         for name, value in ((r.name, value) for r in f.results for value in r.values):
             if strangers := _strangers(drive, value, parameters | {*f.arguments}):
                 yield f"{name!r} of {f.name} needs {', '.join(strangers)}, which neither its arguments nor a key gives"
+        if missing := [name for name in read_of(f.name) if name not in {r.name for r in f.results}]:
+            yield f"the function {f.name!r} gives no {', '.join(missing)}, which limits are read from; add them"
+    names = {f.name for f in drive.functions}
+    if 0 < len(names.intersection(WITH_GENERATION)) < len(WITH_GENERATION):
+        missing = [name for name in WITH_GENERATION if name not in names]
+        yield f"the functions {', '.join(missing)} are missing, which limits read beside the others of its generation"
     for member, least in drive.least_teeth.items():
         if member not in [body.name for body in drive.bodies]:
             yield f"least_teeth names the member {member!r}, which is not there"

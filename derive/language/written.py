@@ -8,11 +8,11 @@ import sys
 from pathlib import Path
 from types import FrameType, TracebackType
 
-#: Rooms whose code is no page's.
-_ENGINE = tuple(
-    str(Path(__file__).resolve().parents[1] / room) + os.sep
-    for room in ("language", "passes", "program", "emit", "prove", "audit", "exchange")
-)
+_DERIVE = Path(__file__).resolve().parents[1]
+#: Rooms of the tree that hold pages.
+_PAGES = tuple(str(_DERIVE / room) + os.sep for room in ("tools", "drives"))
+#: Folders whose code is no page's: the compiler, the runtime, Python's own library.
+_ENGINE = tuple(str(folder) + os.sep for folder in (_DERIVE, _DERIVE.parent / "runtime", os.path.dirname(os.__file__)))
 _WORD = re.compile(r"[A-Za-z_]\w*(?:[./][A-Za-z_]\w*)*")
 _places: dict[str, tuple[str, int]] = {}
 
@@ -39,11 +39,8 @@ def _calling() -> FrameType | None:
 
 def is_page(file: str) -> bool:
     """Whether a file may be a drive's page: neither the compiler's own, nor a library's, nor none at all."""
-    return not (file.startswith(_ENGINE) or file.startswith("<") or "site-packages" in file or _is_standard(file))
-
-
-def _is_standard(file: str) -> bool:
-    return file.startswith(os.path.dirname(os.__file__) + os.sep)
+    library = file.startswith(("<", *_ENGINE)) or "site-packages" in file
+    return file.startswith(_PAGES) or not library
 
 
 def place_of(message: str) -> str:
@@ -65,7 +62,7 @@ def line_of(trace: TracebackType | None) -> str:
     found = ""
     while trace is not None:
         file, number = trace.tb_frame.f_code.co_filename, trace.tb_lineno
-        if is_page(file) and not file.endswith((f"{os.sep}compiler.py", f"{os.sep}pages.py")):
+        if is_page(file):
             found = line(file, number)
         trace = trace.tb_next
     return found

@@ -20,6 +20,21 @@ from meshwright.base.errors import DesignError, LibraryError, UsageError, plain
 OBJECTS = 500_000
 
 
+#: How a message begins that no input should lead to.
+FAULT = "a fault of the program"
+
+
+def _told(error):
+    """What ended a command that should have said so in words: the error and the line, for who mends it."""
+    import traceback  # not loaded where all is well
+
+    *_, frame = traceback.extract_tb(error.__traceback__)
+    return (
+        f"{type(error).__name__}: {error} ({Path(frame.filename).name}, line {frame.lineno}). If the drive is one of "
+        "your own, compare its page with that of a family; else please report this with the command and the design"
+    )
+
+
 class _Parser(argparse.ArgumentParser):
     """Repeats no control characters of the command line to the terminal."""
 
@@ -132,6 +147,11 @@ def main(arguments=None):
         return status
     except (DesignError, UsageError, LibraryError) as error:
         print(f"meshwright: {_shown(error)}", file=sys.stderr)
+        return 2
+    except Exception as error:
+        if arguments is not None:  # who calls from Python sees it as it is
+            raise
+        print(f"meshwright: {FAULT} in {_first(words)}: {_told(error)}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         print("meshwright: interrupted", file=sys.stderr)

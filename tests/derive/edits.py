@@ -66,21 +66,22 @@ class Edit:
 def edits(seed):
     """Without end, edits in an order that the seed gives, over all pages in turn."""
     rng = random.Random(seed)
-    found = {page: [*_of(page)] for page in PAGES}
+    found = {page: _of(page) for page in PAGES}
     while True:
         for page in rng.sample(sorted(PAGES), len(PAGES)):
-            yield rng.choice(found[page])
+            yield rng.choice(rng.choice([*found[page].values()]))
 
 
 def _of(page):
-    """All edits of a page."""
+    """All edits of a page, by what is changed."""
     source = (ROOT / "derive" / page).read_text(encoding="utf-8")
-    lines = source.splitlines()
+    lines, found = source.splitlines(), {}
     for node in ast.walk(ast.parse(source)):
         if getattr(node, "lineno", 0) != getattr(node, "end_lineno", -1):
             continue
         for first, last, new in _changes(node, lines[node.lineno - 1]):
-            yield Edit(page, node.lineno, first, last, new)
+            found.setdefault(type(node).__name__, []).append(Edit(page, node.lineno, first, last, new))
+    return found
 
 
 def _changes(node, line):
