@@ -3,19 +3,19 @@
 Functions of the state alone, the parameters at its end included: what they need of the design they form themselves.
 """
 
-from derive.emit.c99 import Leaves, Printer, linearised
+from derive.emit.c99 import Leaves, Printer, linearised, names_of
 from derive.emit.render import render
 
 
 def header(plan, routines, generator):
     """The text of the drive's header of bounded flanks."""
-    drive = plan.drive
+    drive, names = plan.drive, names_of(plan)
     before = len(plan.state)
     known = Leaves.of(plan).state | {
         plan.lower(p.symbol): f"s[{before + k}]" for k, p in enumerate(drive.parameters)
     }
     unknowns = {plan.lower(u): f"x[{k}]" for k, u in enumerate(plan.unknowns)}
-    printer = Printer(plan.tape, drive.name, known | unknowns, seldom=True)
+    printer = Printer(names, drive.name, known | unknowns, seldom=True)
     equations, jacobian = linearised(printer, routines["edges"]) if plan.edges.systems else (None, None)
     return render(
         "bounded.h.jinja",
@@ -25,14 +25,14 @@ def header(plan, routines, generator):
         equations=equations,
         jacobian=jacobian,
         systems=plan.edges.systems,
-        expansions=[_expansion(plan, known, routines, e) for e in plan.expansions],
+        expansions=[_expansion(plan, names, known, routines, e) for e in plan.expansions],
     )
 
 
-def _expansion(plan, known, routines, expansion):
+def _expansion(plan, names, known, routines, expansion):
     """Bodies of the slopes and of the second derivatives of one surface, functions of its parameters q."""
     own = {plan.lower(q): f"q[{k}]" for k, q in enumerate(expansion.of.parameters)}
-    printer = Printer(plan.tape, plan.drive.name, known | own, seldom=True)
+    printer = Printer(names, plan.drive.name, known | own, seldom=True)
     name = f"{expansion.of.region}_{expansion.of.body}"
     return {
         "name": name,

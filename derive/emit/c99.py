@@ -13,6 +13,7 @@ from derive.emit.render import render
 from derive.language.drive import PATH
 from derive.passes.arrange import Routines
 from derive.passes.plan import Schedule
+from derive.program.names import Names
 from derive.program.tape import Stage
 
 _INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
@@ -58,16 +59,17 @@ class Printer:
     """Writes straight-line C for routines of one tape. ``leaves`` maps nodes to what the function can read.
 
     What is computed ``seldom``, for a design, a start, a solved contact or a point of a flank, calls sine and cosine
-    instead of having them written out in place, for the C compiler's sake. ``names`` are words for nodes, written in a
-    comment where they are computed.
+    instead of having them written out in place, for the C compiler's sake. Local variables have the ``names`` of their
+    nodes, after ``own``; ``words`` are written in a comment where a node is computed.
     """
 
-    def __init__(self, tape, prefix, leaves, suffix="", seldom=False, names=None):
-        self.tape = tape
+    def __init__(self, names: Names, prefix, leaves, own="", seldom=False, words=None):
+        self.tape = names.tape
         self.prefix = prefix
         self.leaves = leaves
-        self.suffix = suffix  # of local names
-        self.names = names or {}
+        self.own = own
+        self.names = names.apart()
+        self.words = words or {}
         self.sincos = f"{prefix}_seldom_sincos" if seldom else f"{prefix}_sincos"
 
     def body(self, printed, known=None):
@@ -78,7 +80,7 @@ class Printer:
         operands = dict(known or {})
         statements = tuple(line for i, step in printed.steps for line in self.statement(i, step, operands))
         results = self.results(printed.outputs, operands)
-        return Body(statements, results, printed.operations, long=not printed.ordered), operands
+        return Body(statements, results, printed.operations, printed.long), operands
 
     def results(self, outputs, operands):
         """The operands of ``outputs``."""
@@ -94,10 +96,10 @@ class Printer:
         """Statements that compute a node, which is added to ``operands``; none if it is there already."""
         if i in operands:
             return []
-        serial, args = f"{len(operands)}{self.suffix}", [self._operand(a, operands) for a in operation.args]
+        args = [self._operand(a, operands) for a in operation.args]
         if operation.op in ("sin", "cos"):
-            return self._sincos(operation.args[0], args[0], serial, operands)
-        operands[i] = f"t{serial}"
+            return self._sincos(operation.args[0], args[0], operands)
+        name = operands[i] = f"{self.own}t_{self.names(i)}"
         match operation.op:
             case "fma" | "fms" | "fnma":
                 value = f"MW_{operation.op.upper()}({', '.join(args)})"
@@ -111,15 +113,15 @@ class Printer:
                 value = f"{self.prefix}_atan2({args[0]}, {args[1]})"
             case op:
                 value = f"{args[0]} {_INFIX[op]} {args[1]}"
-        words = f"  /* {self.names[i]} */" if i in self.names else ""
-        return [f"const double t{serial} = {value};{words}"]
+        words = f"  /* {self.words[i]} */" if i in self.words else ""
+        return [f"const double {name} = {value};{words}"]
 
-    def _sincos(self, argument, operand, serial, operands):
-        for op, letter in (("sin", "s"), ("cos", "c")):
+    def _sincos(self, argument, operand, operands):
+        sine, cosine = (f"{self.own}{op}_{self.names(argument)}" for op in ("sin", "cos"))
+        for op, name in (("sin", sine), ("cos", cosine)):
             if (node := self.tape.find(op, argument)) is not None:
-                operands[node] = f"{letter}{serial}"
-        words = f"  /* of {self.names[argument]} */" if argument in self.names else ""
-        return [f"double s{serial}, c{serial};{words}", self.turned(argument, operand, f"&s{serial}, &c{serial}")]
+                operands[node] = name
+        return [f"double {sine}, {cosine}; {self.turned(argument, operand, f'&{sine}, &{cosine}')}"]
 
     def turned(self, argument, operand, results):
         """The call that writes sine and cosine of a node."""
@@ -129,8 +131,8 @@ class Printer:
 class AnchoredPrinter(Printer):
     """Writes sines and cosines by those of an anchor close by, which has them of ``angles`` in their order."""
 
-    def __init__(self, tape, prefix, leaves, angles, names=None):
-        super().__init__(tape, prefix, leaves, names=names)
+    def __init__(self, names: Names, prefix, leaves, angles, words=None):
+        super().__init__(names, prefix, leaves, words=words)
         self.places = {node: 3 * k for k, node in enumerate(angles)}
 
     def turned(self, argument, operand, results):
@@ -148,9 +150,10 @@ class Leaves:
     state: dict
 
     @classmethod
-    def of(cls, plan: Schedule):
+    def of(cls, plan: Schedule, state=None):
+        """``state``: how its values are read, if not by their places."""
         tape, lower = plan.tape, plan.lower
-        state = {node: f"s[{slot}]" for node, slot in plan.state.items()}
+        state = state or {node: f"s[{slot}]" for node, slot in plan.state.items()}
         before = {n: text for n, text in state.items() if tape.stages[n] == Stage.DESIGN}
         instant = before | {lower(plan.drive.instant): "phi"}
         unknowns = {lower(u): f"x[{k}]" for k, u in enumerate(plan.unknowns)}
@@ -163,23 +166,33 @@ class Leaves:
         )
 
 
+def names_of(plan: Schedule):
+    """The names of a schedule's values: its page's own, then those of what is read of flanks and of a contact."""
+    found = dict(plan.lower.names())
+    surfaces = ((f"{f.region}_{f.body}_", f) for f in (*plan.flanks, *plan.regions))
+    outputs = [(before + o.name, o) for before, f in surfaces for o in (*f.outputs, *f.curvature)]
+    outputs += [(o.name, o) for o in plan.observed]
+    for name, nodes in [("R", plan.residual), *((name, o.nodes) for name, o in outputs)]:
+        places = "xyz" if len(nodes) == 3 else range(len(nodes))
+        for node, place in zip(nodes, places, strict=True):
+            if plan.tape.arguments[node]:
+                found.setdefault(node, f"{name}_{place}" if len(nodes) > 1 else name)
+    return Names(plan.tape, found)
+
+
 def words(plan: Schedule):
-    """Node → name and meaning, of definitions, residual rows, the wheel's angle and what is divided by."""
-    drive, tape, lower = plan.drive, plan.tape, plan.lower
-    meanings = {str(symbol): symbol.meaning for symbol, _ in drive.definitions.items()}
-    found = {node: (name, meanings.get(name, "")) for node, name in lower.names().items()}
-    found |= {node: (f"row {k} of the contact equations", "") for k, node in enumerate(plan.residual)}
-    found |= {lower(u): (u.name, "") for u in plan.unknowns}
-    found.setdefault(lower(drive.wheel_angle), ("wheel angle", ""))
-    for node, origin in tape.origins.items():
+    """Node → what it means, of definitions, residual rows and what is divided by."""
+    meanings = {str(symbol): symbol.meaning for symbol, _ in plan.drive.definitions.items()}
+    found = {node: meanings.get(name, "") for node, name in plan.lower.names().items()}
+    found |= {node: f"row {k} of the contact equations" for k, node in enumerate(plan.residual)}
+    for node, origin in plan.tape.origins.items():
         if origin is not None and origin.meaning and node not in found:
-            found[node] = (origin.statement, origin.meaning)
-    return {node: _comment(*told) for node, told in found.items()}
+            found[node] = f"{origin.statement}: {origin.meaning}"
+    return {node: _comment(told) for node, told in found.items() if told}
 
 
-def _comment(name, meaning):
+def _comment(told):
     """Words that cannot end a comment, nor be taken for operations."""
-    told = f"{name}: {meaning}" if meaning else name
     return re.sub(r"[^A-Za-z0-9_ ,.:'()/-]|(?<![a-z])-|-(?![a-z])| / ", " ", told)
 
 
@@ -187,16 +200,17 @@ def header(plan: Schedule, routines: Routines, description: dict, runtime):
     """The text of the drive's header. ``description`` is the drive's metadata (see :mod:`derive.emit.metadata`),
     ``runtime`` the folder of the C runtime.
     """
-    drive, prefix, tape = plan.drive, plan.drive.name, plan.tape
-    leaves = Leaves.of(plan)
-    names = words(plan)
-    design = Printer(tape, prefix, leaves.design, seldom=True, names=names)
-    instant = Printer(tape, prefix, leaves.instant)
-    iterate = Printer(tape, prefix, leaves.iterate, names=names)
-    solved = Printer(tape, prefix, leaves.iterate, seldom=True, names=names)
-    anchored = AnchoredPrinter(tape, prefix, leaves.moving, plan.angles, names=names)
+    drive, prefix, names, told = plan.drive, plan.drive.name, names_of(plan), words(plan)
+    unlike = names.apart()
+    places = {node: unlike(node) for node in plan.state}
+    leaves = Leaves.of(plan, {node: f"MW_S({name})" for node, name in places.items()})
+    design = Printer(names, prefix, leaves.design, seldom=True, words=told)
+    instant = Printer(names, prefix, leaves.instant)
+    iterate = Printer(names, prefix, leaves.iterate, words=told)
+    solved = Printer(names, prefix, leaves.iterate, seldom=True, words=told)
+    anchored = AnchoredPrinter(names, prefix, leaves.moving, plan.angles, words=told)
     start_unknowns = {plan.lower(u.symbol): f"y[{k}]" for k, u in enumerate(drive.start.unknowns)}
-    start = Printer(tape, prefix, leaves.iterate | start_unknowns, seldom=True)
+    start = Printer(names, prefix, leaves.iterate | start_unknowns, seldom=True)
     residual, jacobian = linearised(iterate, routines["eval"])
     start_residual, start_jacobian = linearised(start, routines["start_eval"])
     guards, setup = (design.body(part)[0] for part in routines["setup"])
@@ -217,13 +231,13 @@ def header(plan: Schedule, routines: Routines, description: dict, runtime):
         sizes=body(_from_parameters(drive, plan.sizes), "size"),
         guards=guards,
         setup=setup,
-        kept=[f"p[{k}]" for k in range(len(drive.parameters))],
+        places=list(places.values()),
         set_phi=body(instant, "set_phi"),
         residual=residual,
         jacobian=jacobian,
         step=body(iterate, "step"),
         anchored=body(anchored, "by_anchor"),
-        anchor=body(Printer(tape, prefix, leaves.moving, seldom=True), "anchor"),
+        anchor=body(Printer(names, prefix, leaves.moving, seldom=True), "anchor"),
         scale=body(iterate, "scale"),
         guess=body(iterate, "guess"),
         start_scale=body(iterate, "start_scale"),
@@ -231,11 +245,11 @@ def header(plan: Schedule, routines: Routines, description: dict, runtime):
         start_jacobian=start_jacobian,
         start_solution=body(start, "start_solution"),
         observed=body(solved, "observe"),
-        flanks=[_surface(plan, flank, leaves.state, routines) for flank in plan.flanks],
-        regions=[_surface(plan, region, leaves.state, routines) for region in plan.regions],
-        along=_along(plan, leaves, routines["along"]),
+        flanks=[_surface(plan, names, flank, leaves.state, routines) for flank in plan.flanks],
+        regions=[_surface(plan, names, region, leaves.state, routines) for region in plan.regions],
+        along=_along(plan, names, leaves, routines["along"]),
         systems=[_system(system, drive, routines) for system in plan.systems],
-        functions=[_function(plan, f, leaves.state, routines) for f in plan.functions],
+        functions=[_function(plan, names, f, leaves.state, routines) for f in plan.functions],
         literal=number,
         approximation=approximation,
         estrin=estrin,
@@ -264,28 +278,28 @@ def linearised(printer, routines):
     return body, printer.body(jacobian, known)[0]
 
 
-def _surface(plan, flank, state, routines):
-    printer, name = _on_arguments(plan, flank.parameters, state), f"{flank.region}_{flank.body}"
+def _surface(plan, names, flank, state, routines):
+    printer, name = _on_arguments(plan, names, flank.parameters, state), f"{flank.region}_{flank.body}"
     body, curvature = (printer.body(*routines[f"surface {of}"])[0] for of in (name, f"curvature_{name}"))
     return {"flank": flank, "body": body, "curvature": curvature}
 
 
-def _function(plan, function, state, routines):
-    printer, groups = _on_arguments(plan, function.parameters, state), [o.nodes for o in function.outputs]
+def _function(plan, names, function, state, routines):
+    printer, groups = _on_arguments(plan, names, function.parameters, state), [o.nodes for o in function.outputs]
     [made], tests = routines[f"function {function.name}"], plan.tests.get((function.name, 0), {})
     return {"function": function, "body": _tested(printer, made, groups, tests)}
 
 
-def _on_arguments(plan, arguments, state):
+def _on_arguments(plan, names, arguments, state):
     """A printer of functions of their own arguments q and the state."""
     own = {plan.lower(q): f"q[{k}]" for k, q in enumerate(arguments)}
-    return Printer(plan.tape, plan.drive.name, state | own, seldom=True)
+    return Printer(names, plan.drive.name, state | own, seldom=True)
 
 
-def _along(plan, leaves, routines):
+def _along(plan, names, leaves, routines):
     """Bodies of the residual's first derivative along a direction v, and of the second that may follow it."""
     own = {node: f"v[{k}]" for k, node in enumerate(plan.along.direction)}
-    first, second = linearised(Printer(plan.tape, plan.drive.name, leaves.moving | own, seldom=True), routines)
+    first, second = linearised(Printer(names, plan.drive.name, leaves.moving | own, seldom=True), routines)
     return {"first": first, "second": second}
 
 
@@ -294,7 +308,7 @@ def _system(plan, drive, routines):
     lower, count = plan.lower, len(drive.parameters)
     known = {lower(p.symbol): f"q[{k}]" for k, p in enumerate(drive.parameters)} | {lower(PATH): f"q[{count}]"}
     leaves = known | {lower(u): f"y[{k}]" for k, u in enumerate(plan.unknowns)}
-    printer = Printer(plan.tape, drive.name, leaves, seldom=True)
+    printer = Printer(Names(plan.tape, lower.names()), drive.name, leaves, seldom=True)
     index, name = {p.symbol: k for k, p in enumerate(drive.parameters)}, plan.system.name
     residual, jacobian = linearised(printer, routines[f"system {name}_eval"])
     guess, scale, watch, values = (
@@ -342,4 +356,4 @@ def _tested(printer, made, groups, tests):
 def _from_parameters(drive, program):
     """A printer of expressions of the parameter vector alone."""
     leaves = {program.lower(p.symbol): f"p[{k}]" for k, p in enumerate(drive.parameters)}
-    return Printer(program.tape, drive.name, leaves, seldom=True)
+    return Printer(Names(program.tape, program.lower.names()), drive.name, leaves, seldom=True)

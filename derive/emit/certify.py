@@ -13,7 +13,7 @@ one.
 from collections import Counter
 
 from derive.emit import embedded
-from derive.emit.c99 import number
+from derive.emit.c99 import names_of, number
 from derive.emit.certified import operations_of
 from derive.emit.render import render
 
@@ -27,12 +27,18 @@ def _reached(steps, outputs):
     return found
 
 
+def _named(names, own):
+    """Function: node → the name of its variable, which begins with ``own``; nobody reads what is no node."""
+    apart = names.apart()
+    return lambda i: f"{own}_unread_{apart(i[1])}" if isinstance(i, tuple) else f"{own}_{apart(i)}"
+
+
 class _Text:
     """Statements of one function in one arithmetic; ``read`` maps leaves to what they are read by."""
 
-    def __init__(self, tape, prefix, type_, suffix, read):
-        self.tape, self.prefix, self.type, self.suffix, self.read = tape, prefix, type_, suffix, read
-        self.names, self.statements = {}, []
+    def __init__(self, names, prefix, type_, own, read):
+        self.tape, self.prefix, self.type, self.read = names.tape, prefix, type_, read
+        self.name, self.names, self.statements = _named(names, own), {}, []
 
     def of(self, made, outputs):
         """Operands of these ``outputs`` of a routine, once their statements are written."""
@@ -45,7 +51,7 @@ class _Text:
 
     def _operand(self, i):
         if i not in self.names:
-            self.names[i] = name = f"{self.suffix}{len(self.names)}"
+            self.names[i] = name = self.name(i)
             self.statements.append(f"const {self.type} {name} = {self._leaf(i)};")
         return self.names[i]
 
@@ -57,7 +63,7 @@ class _Text:
         return wide if self.type == "mw_wide" else f"mwc_of_wide({wide})" if low != "0.0" else f"mwc_make({high}, 0.0)"
 
     def _write(self, op, results, args):
-        names = [f"{self.suffix}{len(self.names) + k}" for k in range(len(results))]
+        names = [self.name(i) for i in results]
         self.names |= dict(zip(results, names, strict=True))
         if op == "sincos":
             self._turn(names, args[0])
@@ -77,14 +83,14 @@ class _Text:
 class _Point:
     """Statements of residual and Jacobian at a point.
 
-    Number k has the middle ``m<k>`` and, if the residual reads it and it is not exact, the radius ``r<k>`` in units of
-    2⁻⁵³. ``read`` maps leaves to what middle and radius are read by, ``most`` numbers of the design to what their
-    largest size is read by. ``guards`` are what ``domain.h`` looks at, in the order of the operations.
+    A number has the middle ``m_<name>`` and, if the residual reads it and it is not exact, the radius ``r_<name>`` in
+    units of 2⁻⁵³. ``read`` maps leaves to what middle and radius are read by, ``most`` numbers of the design to what
+    their largest size is read by. ``guards`` are what ``domain.h`` looks at, in the order of the operations.
     """
 
-    def __init__(self, made, read, most, equations):
+    def __init__(self, names, made, read, most, equations):
         residual, jacobian = made.outputs[:equations], made.outputs[equations:]
-        self.tape, self.read, self.most = made.tape, read, most
+        self.tape, self.read, self.most, self.name = made.tape, read, most, _named(names, "m")
         self.steps = operations_of(made)
         self.wide = _reached(self.steps, residual)
         self.factor = Counter(a for op, _, args in self.steps if op == "mul" for a in args)
@@ -100,7 +106,7 @@ class _Point:
 
     def _say(self, node, middle, radius):
         """A name for a node, with the text of its radius, None where it is exact."""
-        self.names[node] = name = f"m{len(self.names)}"
+        self.names[node] = name = self.name(node)
         self.statements.append(f"const double {name} = {middle};")
         if radius is not None and node in self.wide:
             self.radii[node] = of = f"r{name[1:]}"
@@ -119,7 +125,7 @@ class _Point:
     def _write(self, op, results, names, args):
         node, first, last = results[0], names[0], names[-1]
         ra, rb = (self.radii.get(a) for a in (args[0], args[-1]))
-        m = f"m{len(self.names)}"
+        m = self.name(node)
         match op:
             case "add" | "sub":
                 known = [r for r in (ra, rb) if r]
@@ -179,8 +185,8 @@ class _Point:
         self._say(results[1], cosine, f"mwc_units_turned({radius}, {sine}, 1.0)")
 
 
-def _balls(made, suffix, read, outputs=None):
-    text = _Text(made.tape, "mwc_", "mw_ball", suffix, read)
+def _balls(names, made, own, read, outputs=None):
+    text = _Text(names, "mwc_", "mw_ball", own, read)
     return {"results": text.of(made, made.outputs if outputs is None else outputs), "statements": text.statements}
 
 
@@ -193,7 +199,7 @@ def header(plan, routines, description, runtime):
 
     ``description`` is the drive's metadata, ``runtime`` the folder of the C runtime.
     """
-    tape, lower = plan.tape, plan.lower
+    names, lower = names_of(plan), plan.lower
     shared = {n: f"MWC_SHARED(s, {k})" for n, k in plan.state.items() if k < plan.design_slots}
     own = {n: f"MWC_OWN(t, {k - plan.design_slots})" for n, k in plan.state.items() if k >= plan.design_slots}
     at = {lower(u): f"mwc_make(x[{k} * MW_LANES + l], 0.0)" for k, u in enumerate(plan.unknowns)}
@@ -204,7 +210,7 @@ def header(plan, routines, description, runtime):
     point = {lower(u): (f"x[{k} * MW_LANES + l]", None) for k, u in enumerate(plan.unknowns)}
     given = {lower(p.symbol): f"p[{k}]" for k, p in enumerate(plan.drive.parameters)}
     (_, kept), [turning], [both], [scales] = (routines[name] for name in FUNCTIONS)
-    setup, count = _Text(tape, "mwc_wide_", "mw_wide", "w", given), len(plan.residual)
+    setup, count = _Text(names, "mwc_wide_", "mw_wide", "w", given), len(plan.residual)
     return render(
         "certify.h.jinja",
         drive=plan.drive,
@@ -217,10 +223,10 @@ def header(plan, routines, description, runtime):
         design_slots=plan.design_slots,
         slots=len(plan.state),
         setup={"results": setup.of(kept, kept.outputs), "statements": setup.statements},
-        instant=_balls(turning, "b", shared | {lower(plan.drive.instant): "MWC_OWN(phi, 0)"}),
-        residual=_balls(both, "p", shared | own | at, both.outputs[:count]),
-        jacobian=_balls(both, "b", shared | own | about, both.outputs[count:]),
-        point=_Point(both, shared_3 | turned | point, most, count),
+        instant=_balls(names, turning, "b", shared | {lower(plan.drive.instant): "MWC_OWN(phi, 0)"}),
+        residual=_balls(names, both, "p", shared | own | at, both.outputs[:count]),
+        jacobian=_balls(names, both, "b", shared | own | about, both.outputs[count:]),
+        point=_Point(names, both, shared_3 | turned | point, most, count),
         columns=[*(k for k in range(len(plan.unknowns)) if k != description["error"]), description["error"]],
-        scales=_balls(scales, "b", shared | own),
+        scales=_balls(names, scales, "b", shared | own),
     )

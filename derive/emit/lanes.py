@@ -5,7 +5,7 @@ needs for every design or point is printed: the design stage, the instant stage 
 takes two lanes in a turn, of the lower and of the upper half, so that one has work while the other waits.
 """
 
-from derive.emit.c99 import Body, Leaves, Printer
+from derive.emit.c99 import Body, Leaves, Printer, names_of
 from derive.emit.render import render
 from derive.passes.arrange import Routines, SideBySide
 from derive.passes.plan import Schedule
@@ -26,14 +26,14 @@ KERNELS = ("setup", "set_phi")
 
 def header(plan: Schedule, routines: Routines, step: SideBySide, generator: str):
     """The text of the drive's lane header."""
-    leaves, name = Leaves.of(plan), plan.drive.name
+    leaves, name, names = Leaves.of(plan), plan.drive.name, names_of(plan)
     guards, setup = routines["setup"]
 
     def body(readable, made):
-        return Printer(plan.tape, name, _in_lanes(readable)).body(made)[0]
+        return Printer(names, name, _in_lanes(readable)).body(made)[0]
 
-    lower = Printer(plan.tape, name, _in_lanes(leaves.iterate))
-    upper = Printer(plan.tape, name, _in_lanes(leaves.iterate, "m"), suffix="m")
+    lower = Printer(names, name, _in_lanes(leaves.iterate))
+    upper = Printer(names, name, _in_lanes(leaves.iterate, "m"), own="m")
     return render(
         "lanes.h.jinja",
         drive=plan.drive,

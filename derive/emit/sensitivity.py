@@ -2,6 +2,7 @@
 
 from derive.emit.c99 import Printer
 from derive.emit.render import render
+from derive.program.names import Names
 
 #: Arguments that are one number.
 _NUMBERS = ("phi", "dphi")
@@ -32,7 +33,8 @@ def _body(drive, tangent, routines):
         for name, nodes in tangent.inputs.items()
         for k, node in enumerate(nodes)
     }
-    return Printer(tangent.lower.tape, drive.name, leaves).body(routines[tangent.evaluated().key][tangent.part])[0]
+    names = Names(tangent.lower.tape, tangent.lower.names())
+    return Printer(names, drive.name, leaves).body(routines[tangent.evaluated().key][tangent.part])[0]
 
 
 def _rule(drive, rule, tangent, routines):

@@ -4,6 +4,7 @@ from collections.abc import Callable, Collection, Iterator
 from typing import TypeAlias
 
 from derive.passes import guards
+from derive.passes.arrange import OFTEN
 from derive.passes.fuse import fuse
 from derive.passes.order import order
 from derive.passes.plan import Schedule
@@ -28,10 +29,14 @@ def _step(plan: Schedule) -> Iterator[Named]:
     yield "step", plan.newton_step, frozenset()
 
 
-def _all(plan: Schedule) -> Iterator[Named]:
+def _all(plan: Schedule, chosen: Collection[str] = ()) -> Iterator[Named]:
     for f in (*guards.functions(plan), *guards.moving(plan)):
-        if f.tape is plan.tape:
+        if f.tape is plan.tape and (not chosen or f.key in chosen):
             yield f.name, f.outputs, f.known
+
+
+def _often(plan: Schedule) -> Iterator[Named]:
+    yield from _all(plan, OFTEN)
 
 
 #: Passes by name: the routines that exist after them, and what has been done to each by then.
@@ -42,7 +47,7 @@ PASSES: dict[str, tuple[Callable[[Schedule], Iterator[Named]], tuple[Callable[[R
     "binding-times": (_all, ()),
     "reciprocals": (_all, (reciprocals,)),
     "fuse": (_all, (reciprocals, fuse)),
-    "order": (_all, (reciprocals, fuse, order)),
+    "order": (_often, (reciprocals, fuse, order)),
 }
 
 

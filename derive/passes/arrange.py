@@ -5,7 +5,7 @@ Input: generated functions, each by what it returns and what it is given. Output
 """
 
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from derive.passes.fuse import fuse
@@ -19,13 +19,13 @@ from derive.program.routine import Routine, routine
 Routines: TypeAlias = Mapping[str, tuple[Routine, ...]]
 
 
-#: Functions that are called at every step and angle; all others, for a design, a start, a solved contact or a point of
-#: a flank, are called seldom.
+#: Functions that are called at every step and angle. All others, for a design, a start, a solved contact or a point of
+#: a flank, are called seldom, and stay in the order in which their results need them: there a change of a page changes
+#: its own lines, where the order of urgency moves others too.
 OFTEN = ("set_phi", "eval", "step", "by_anchor", "scale", "guess", "start_scale")
 
-#: Operations from which on a function that is seldom called stays in the order of its tape, and is compiled as it
-#: stands: the time that a compiler takes to allot registers grows with the square of them, and is then seconds, more
-#: than any analysis spends in the function.
+#: Operations from which on a function that is seldom called is compiled as it stands: the time that a compiler takes to
+#: allot registers grows with the square of them, and is then seconds, more than any analysis spends in the function.
 LONG = 2500
 
 #: Cycles by which a second copy of a program lags behind the first: one is wide where the other waits.
@@ -48,7 +48,7 @@ def arrange(plan: Schedule, functions: Iterable[Evaluated], often: Collection[st
 
 
 def _ordered(made: Routine, often: bool) -> Routine:
-    return order(made) if often or made.operations < LONG else made
+    return order(made) if often else replace(made, long=made.operations >= LONG)
 
 
 def side_by_side(plan: Schedule) -> SideBySide:

@@ -16,10 +16,12 @@ class Derivatives:
         self.tape, self._done = tape, dict(seeds)
 
     def __call__(self, i: int) -> int:
-        for k in [*self.tape.needed([i], self._done), i]:
+        tape, since = self.tape, len(self.tape.nodes)
+        for k in [*tape.needed([i], self._done), i]:
             if k not in self._done:
-                args, zero = self.tape.arguments[k], self.tape.constant(0)
-                self._done[k] = self.tape.rule(k, [self._done.get(a, zero) for a in args]) if args else zero
+                args, zero = tape.arguments[k], tape.constant(0)
+                change = tape.rule(k, [self._done.get(a, zero) for a in args]) if args else zero
+                self._done[k] = tape.means(change, since, "change", k)
         return self._done[i]
 
 

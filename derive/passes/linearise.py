@@ -203,7 +203,7 @@ class _Forward:
         def slopes(k: int) -> list[int]:
             return [done[a] if a in done else tape.constant(int(a == column)) for a in arguments[k]]
 
-        stack = [a for a in arguments[i] if a in moved]
+        stack, since = [a for a in arguments[i] if a in moved], len(tape.nodes)
         while stack:
             top = stack[-1]
             if top in done:
@@ -213,7 +213,7 @@ class _Forward:
             elif missing := [a for a in arguments[top] if a in moved and a not in done]:
                 stack.extend(missing)
             else:
-                done[top] = tape.rule(top, slopes(top))
+                done[top] = tape.means(tape.rule(top, slopes(top)), since, "slope", top, column, "alone")
         return tape.rule(i, slopes(i)) if arguments[i] and i != column else tape.constant(int(i == column))
 
 
@@ -230,10 +230,11 @@ class _Backward:
         for k in order:
             if any(a in moved for a in tape.nodes[k].args):
                 moved.add(k)
-        adjoint = {i: tape.constant(1)}
+        adjoint, since = {i: tape.constant(1)}, len(tape.nodes)
         for k in reversed(order):
             if k not in adjoint or k not in moved:
                 continue
+            tape.means(adjoint[k], since, "slope", i, k, "back")
             for a in dict.fromkeys(tape.nodes[k].args):
                 if a in moved:
                     slopes = [tape.constant(int(b == a)) for b in tape.arguments[k]]

@@ -55,7 +55,7 @@ def _reordered(routine: Routine, nodes: Iterable[int]) -> Routine:
             turned.setdefault(step.args, []).append((i, step))
     alone = ([(i, program[i])] if program[i].op not in ("sin", "cos") else turned[program[i].args] for i in nodes)
     steps = tuple(step for steps in alone for step in steps)
-    return check.reordered("order", routine, replace(routine, steps=steps, ordered=True))
+    return check.reordered("order", routine, replace(routine, steps=steps))
 
 
 def latency_order(

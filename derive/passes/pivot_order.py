@@ -110,7 +110,7 @@ def _solve(tape: Tape, matrix: Sequence[Sequence[int]], right: Sequence[int], or
     in which each waits for the one before.
     """
     a, b = [list(row) for row in matrix], list(right)
-    singly, last = order[:-2], order[-2:]
+    singly, last, since = order[:-2], order[-2:], len(tape.nodes)
     inverse: dict[int, int] = {}
     for step, (i, j) in enumerate(singly):
         inverse[i] = _reciprocal(tape, a[i][j], f"pivot {step + 1}")
@@ -120,7 +120,9 @@ def _solve(tape: Tape, matrix: Sequence[Sequence[int]], right: Sequence[int], or
             factor = tape.mul(a[k][j], inverse[i])
             for _, m in order[step + 1 :]:
                 a[k][m] = tape.sub(a[k][m], tape.mul(factor, a[i][m]))
+                tape.means(a[k][m], since, f"entry {k} {m} after pivot {i} {j}")
             b[k] = tape.sub(b[k], tape.mul(factor, b[i]))
+            tape.means(b[k], since, f"right side {k} after pivot {i} {j}")
     solution = _cramer(tape, a, b, last)
     for step, (i, j) in reversed([*enumerate(singly)]):
         total = b[i]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from typing import ClassVar
@@ -27,6 +28,7 @@ class Lowering:
         self.definitions = definitions if definitions is not None else Definitions()
         self._done: dict[sp.Expr, int] = {}
         self._names: dict[int, str] = {}
+        self._hashes: dict[sp.Expr, str] = {}
 
     def copy(self) -> Lowering:
         """The same on a copy of the tape."""
@@ -46,10 +48,19 @@ class Lowering:
         """Node of an expression; its symbols are inputs, definitions or stand for nodes."""
         e = sp.sympify(expression)
         if e not in self._done:
-            node = self._done[e] = self._lower(e)
+            since = len(self.tape.nodes)
+            node = self._done[e] = self.tape.means(self._lower(e), since, self._said(e))
             if isinstance(e, sp.Symbol) and e in self.definitions:
                 self._names.setdefault(node, str(e))
         return self._done[e]
+
+    def _said(self, e: sp.Expr) -> str:
+        """A hash of an expression as it is written, where definitions have their names."""
+        if e not in self._hashes:
+            parts = sorted(map(self._said, e.args)) if e.is_Add or e.is_Mul else [*map(self._said, e.args)]
+            text = " ".join([e.func.__name__, *parts]) if parts else str(e)
+            self._hashes[e] = hashlib.sha256(text.encode()).hexdigest()
+        return self._hashes[e]
 
     def _lower(self, e: sp.Expr) -> int:
         t = self.tape

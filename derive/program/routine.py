@@ -25,8 +25,8 @@ class Operation(NamedTuple):
 class Routine:
     """``steps`` (node, operation) in an order of evaluation that leads to ``outputs``; ``known`` are nodes to be read.
 
-    ``later`` are outputs of a routine that goes on from this one; ``ordered`` says whether the order is that of
-    :mod:`derive.passes.order`. ``found`` keeps what passes found out about it.
+    ``later`` are outputs of a routine that goes on from this one; ``long`` says that it is to be compiled as it stands.
+    ``found`` keeps what passes found out about it.
     """
 
     tape: Tape
@@ -35,7 +35,7 @@ class Routine:
     steps: tuple[tuple[int, Operation], ...]
     later: tuple[int, ...] = ()
     name: str = ""
-    ordered: bool = False
+    long: bool = False
     found: dict[str, list[int]] = field(default_factory=dict, init=False, compare=False, repr=False)
 
     @property

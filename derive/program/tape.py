@@ -41,7 +41,8 @@ class Node(NamedTuple):
     value: Any = None
 
 
-_COMMUTATIVE = {"add", "mul"}
+#: Operations whose arguments may change places.
+COMMUTATIVE = {"add", "mul"}
 
 #: Operations by name: how many arguments each takes.
 OPERATIONS = {"add": 2, "sub": 2, "mul": 2, "div": 2, "neg": 1, "sqrt": 1, "sin": 1, "cos": 1, "atan2": 2, "sign": 1}
@@ -50,13 +51,15 @@ OPERATIONS = {"add": 2, "sub": 2, "mul": 2, "div": 2, "neg": 1, "sqrt": 1, "sin"
 class Tape:
     """A growing straight-line program. Values are referred to by index.
 
-    ``origins`` holds the :class:`~derive.language.origin.Origin` of every operation that is not defined everywhere.
+    ``origins`` holds the :class:`~derive.language.origin.Origin` of every operation that is not defined everywhere,
+    ``meanings`` what is known of a node beside how it is computed (:meth:`means`).
     """
 
     def __init__(self) -> None:
         self.nodes: list[Node] = []
         self.arguments: list[tuple[int, ...]] = []
         self.origins: dict[int, Origin] = {}
+        self.meanings: dict[int, tuple[int | str, ...]] = {}
         self._within: Origin | None = None
         self.stages: list[Stage] = []
         self._index: dict[tuple[str, tuple[int, ...], object], int] = {}
@@ -83,8 +86,19 @@ class Tape:
         yield
         self._within = before
 
+    def means(self, i: int, since: int, *what: int | str) -> int:
+        """Say what an operation is, in words and nodes, if it is new since there were ``since`` nodes; returns it.
+
+        Of an operation and its negative, of which a tape may read either, one meaning is that of the other.
+        """
+        if i >= since and self.arguments[i]:
+            self.meanings.setdefault(i, what)
+            if (inner := self._negated(i)) is not None and inner >= since and self.arguments[inner]:
+                self.meanings.setdefault(inner, ("minus", *what))
+        return i
+
     def _new(self, op: str, args: tuple[int, ...] = (), value: object = None, stage: Stage | None = None) -> int:
-        if op in _COMMUTATIVE and args[0] > args[1]:
+        if op in COMMUTATIVE and args[0] > args[1]:
             args = args[1], args[0]
         key = (op, args, value)
         i = self._index.get(key)
@@ -295,7 +309,7 @@ class Tape:
         reads, arguments = self._inputs_read(), self.arguments
         own = self._inputs.get(variable, 0)
         known = self._derivatives.setdefault(variable, {})
-        stack = [i]
+        stack, since = [i], len(self.nodes)
         while stack:
             top = stack[-1]
             if top in known:
@@ -306,7 +320,8 @@ class Tape:
                 stack.extend(missing)
             else:
                 args = arguments[top]
-                known[top] = self.rule(top, [known[a] for a in args]) if args else self.constant(1)
+                slope = self.rule(top, [known[a] for a in args]) if args else self.constant(1)
+                known[top] = self.means(slope, since, "slope", top, variable)
         return known[i]
 
     def _inputs_read(self) -> list[int]:
@@ -362,13 +377,15 @@ class Tape:
 
     def substitute(self, i: int, replacement: Mapping[int, int]) -> int:
         """The node with inputs replaced by other nodes (``replacement``: index → index)."""
-        done = dict(replacement)
+        done, since = dict(replacement), len(self.nodes)
+        where = [node for pair in sorted(replacement.items()) for node in pair]
         for k in [*self.needed([i], done), i]:
             node = self.nodes[k]
             if k not in done:
                 args = [done.get(a, a) for a in node.args]
                 with self.within(self.origins.get(k)):
-                    done[k] = getattr(self, node.op)(*args) if args else k
+                    there = getattr(self, node.op)(*args) if args else k
+                done[k] = self.means(there, since, "where", *where, "is", k)
         return done[i]
 
     # -- reading ----------------------------------------------------------------------------------------------

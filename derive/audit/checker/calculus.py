@@ -99,7 +99,7 @@ def check_step(header: Header, rng: Random) -> None:
 
 #: How the anchor writes sine and cosine of an angle, and how they are read.
 ANCHORED = re.compile(r"\w+_seldom_sincos\(at\[(\d+)\], at \+ (\d+), at \+ (\d+)\);")
-TAKEN = re.compile(r"\w+_near_sincos\((.+), &s\d+, &c\d+, at \+ (\d+), &away\);")
+TAKEN = re.compile(r"\w+_near_sincos\((.+), &\w+, &\w+, at \+ (\d+), &away\);")
 
 
 def check_by_anchor(header: Header, rng: Random) -> None:

@@ -11,14 +11,14 @@ from .draws import once
 from .machine import Machine, machine
 from .modular import PRIME, Number
 from .refusal import require
-from .straight_line import Function, read_body, read_header
+from .straight_line import Function, numbered, read_body, read_header
 
 
 class Drive:
     """What is compared: the description, the header, and inputs for both."""
 
     def __init__(self, description: dict, text: str, tangents: str = ""):
-        self.description, self.text, self.tangents = description, text, tangents
+        self.description, self.text, self.tangents = description, numbered(text), tangents
         self.functions: dict[str, Function] = {}
         self.tables: dict[str, str] = {}
         self.header = read_header(text)
@@ -53,7 +53,7 @@ class Drive:
             for at, key, size in re.findall(r"^ \* +(\d+) (\w+)(?:\[(\d+)\])?", comments, re.M)
         }
         body = re.sub(r"if \(q\[(\d+)\] != q\[\1\]\) (?=q\[\1\] = )", "", found[1])
-        return Function(name, read_body(re.sub(r"\breturn (t\d+);", r"o[0] = \1;", body)), table)
+        return Function(name, read_body(re.sub(r"\breturn (-?t_\w+);", r"o[0] = \1;", body)), table)
 
     def base(self, rng: Random) -> Machine:
         """Parameters, input angle and unknowns of one draw, after setup and set_phi."""

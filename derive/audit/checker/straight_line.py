@@ -16,10 +16,10 @@ from .refusal import foreseen
 DIVISOR = 720
 PI_ENCLOSED = number_of("pi").middle
 STATEMENT = re.compile(
-    r"const double (t\d+m?) = (.+);|(\w+\[\d+\]) = (.+);|"
-    r"\w+_sincos\((.+), &(s\d+m?), &(c\d+m?)(?:, at \+ \d+, &away)?\);"
+    r"const double (\w+) = (.+);|(\w+\[\d+\]) = (.+);|"
+    r"double (\w+), (\w+); \w+_sincos\((.+), &\5, &\6(?:, at \+ \d+, &away)?\);"
 )
-SILENT = re.compile(r"\(void\)|double s\d+m?, c\d+m?;|double away = 0\.0;|if \(|int failed|return |[{}]|$")
+SILENT = re.compile(r"\(void\)|double away = 0\.0;|if \(|int failed|return |[{}]|$")
 OPERAND = r"\(?-?[\w.\[\]]+(?:e[+-]?\d+)?\)?"
 BINARY = re.compile(rf"({OPERAND}) ([-+*/]) ({OPERAND})")
 CALL = re.compile(r"(?:\w+_)?(sqrt|atan2|SIGN)\((.+)\)")
@@ -105,7 +105,7 @@ class Header:
 
 def read_header(text: str, lanes: str = "", tangents: str = "") -> Header:
     """The straight-line functions of a header, with the texts of its lanes and of its tangents."""
-    prefix = re.search(r"static inline int (\w+)_setup\(", text)[1]
+    prefix, text = re.search(r"static inline int (\w+)_setup\(", text)[1], numbered(text)
     wanted = (
         rf"{prefix}_(setup|set_phi|eval|by_anchor|step|along|start_eval|observe|(?:curvature_)?(?:flank|fillet)_\w+)"
     )
@@ -126,6 +126,23 @@ def read_header(text: str, lanes: str = "", tangents: str = "") -> Header:
     guards = guards_of(body_of(text, f"{prefix}_setup"))
     anchored = body_of(text, f"{prefix}_anchor"), body_of(text, f"{prefix}_by_anchor")
     return Header(found, parameters, read_frames(text), sizes, unknowns, guards, lanes, tangents, anchored)
+
+
+def numbered(text: str) -> str:
+    """A header with places of its state by number where it has names: MW_S(name) is s[k], for name k of its list."""
+    prefix = re.search(r"static inline int (\w+)_setup\(", text)[1]
+    listed = re.search(rf"^enum {{\n((?: +{prefix}_S_\w+,?\n)+)}};$", text, re.M)
+    places = {name: k for k, name in enumerate(re.findall(rf" {prefix}_S_(\w+)", listed[1]))} if listed else {}
+    defined = re.findall(r"#.*\bMW_S\b.*", text)
+    foreseen(defined == [f"#define MW_S(name) s[{prefix}_S_##name]", "#undef MW_S"], "MW_S is another macro")
+    text = re.sub(r"\bMW_S\((\w+)\)", lambda m: f"s[{places[m[1]]}]" if m[1] in places else m[0], text)
+    count, slots = (int(re.search(rf"#define {prefix}_{size} (\d+)\n", text)[1]) for size in ("NP", "NS"))
+    kept = "".join(f"    s[{slots - count + k}] = p[{k}];\n" for k in range(count))
+    return text.replace(KEPT.replace("X", prefix), kept)
+
+
+#: How a setup keeps the parameters.
+KEPT = "    for (int k = 0; k < X_NP; k++) s[X_NS - X_NP + k] = p[k];\n"
 
 
 def letter_of(name: str) -> str:
@@ -173,11 +190,11 @@ def read_body(body: str) -> dict[str, tuple[str, str]]:
         if statement is None:
             foreseen(SILENT.match(line), f"not a straight-line statement: {line}")
         elif statement[5]:
-            definitions[statement[6]], definitions[statement[7]] = ("sin", statement[5]), ("cos", statement[5])
+            definitions[statement[5]], definitions[statement[6]] = ("sin", statement[7]), ("cos", statement[7])
         else:
             target = statement[1] or statement[3]
             # an argument that is also the result keeps its first value under its own name
-            target = f"new {target}" if target[0] == "x" or target.startswith("mx") else target
+            target = f"new {target}" if target.startswith(("x[", "mx[")) else target
             definitions[target] = ("expression", statement[2] or statement[4])
     return definitions
 

@@ -14,7 +14,7 @@ from derive.audit.checker import modular
 from derive.audit.checker.casadi_functions import casadi, program_of
 from derive.audit.checker.machine import Machine, machine
 from derive.audit.checker.refusal import UNREADABLE, Rejected
-from derive.audit.checker.straight_line import Function, literal_of, read_body, read_header, read_lanes
+from derive.audit.checker.straight_line import Function, literal_of, numbered, read_body, read_header, read_lanes
 from derive.audit.checker.tables import OPERATIONS
 from derive.audit.mutations.checks import STATE
 from derive.audit.mutations.of_c import functions_of
@@ -104,13 +104,14 @@ def _same_residues(old, new, drive) -> bool:
 def programs(drive: str, text: str, stage: str) -> dict[str, list[dict]]:
     """The straight-line programs of each function: that outside all inner braces, and each inner block."""
     found = {}
+    text = numbered(text) if stage == "scalar C" else text
     for name, start, end in functions_of(drive, text):
         body = text[start:end]
         if stage == "lanes":
             name = name.removesuffix("_lanes")
             found[name] = [read_lanes(text, name).definitions]
             continue
-        body = re.sub(r"\breturn (t\d+);", r"o[0] = \1;", body)
+        body = re.sub(r"\breturn (-?t_\w+);", r"o[0] = \1;", body)
         blocks = re.findall(r"^    if \([^\n]*\) {[^\n]*\n(.*?)\n    }", body, re.DOTALL | re.M)
         blocks += re.findall(r"^    {\n(.*?)^    }", body, re.DOTALL | re.M)
         try:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from derive.audit.checker.tables import CODE_OF
 
 NUMBER = r"(?<![\w.])-?\d+\.\d+(?:e[+-]?\d+)?"
-OPERAND = r"\(?-?[\w.\[\]]+\)?"
+OPERAND = r"(?:MW_S\(\w+\)|\(?-?[\w.\[\]]+\)?)"
 #: What stands in a right-hand side, and what it is changed into: signs, constants, operands, terms, indices.
 CHANGES = (
     (r" \+ ", lambda m: " - "),
@@ -21,7 +21,8 @@ CHANGES = (
     (r"(atan2)\(([^,()]+), ([^,()]+)\)", lambda m: f"{m[1]}({m[3]}, {m[2]})"),
     (rf"({OPERAND}) [-+] {OPERAND}(?=;)", lambda m: m[1]),
     (r"(?<=[= (])([psxqyv])\[(\d+)\]", lambda m: f"{m[1]}[{int(m[2]) + 1}]"),
-    (r"&(s\d+m?), &(c\d+m?)\)", lambda m: f"&{m[2]}, &{m[1]})"),
+    (r"MW_S\(\w+\)(?! =)", lambda m: "s[0]"),
+    (r"&(m?sin_\w+), &(m?cos_\w+)\)", lambda m: f"&{m[2]}, &{m[1]})"),
 )
 
 
