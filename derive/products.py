@@ -152,6 +152,11 @@ def made(folder=GENERATED):
     return [path for path in listed(folder) if not kept(path)]
 
 
+def absent(folder=GENERATED):
+    """Those of them that are not there, whatever the others are."""
+    return [path for path in made(folder) if not (folder / path).exists()]
+
+
 def missing(folder=GENERATED):
     """Those of them that are not there, or not as listed."""
     hashes = listed(folder)

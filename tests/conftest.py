@@ -22,7 +22,7 @@ TOGETHER = ("report",)
 
 def unbuilt(generated=products.GENERATED, library=ROOT / "runtime/meshwright/_generated/libmeshwright.so"):
     """What is to be done first, in words, in a checkout that is not built; else nothing."""
-    lacking = [path for path in products.made(generated) if not (generated / path).exists()]
+    lacking = products.absent(generated)
     if not lacking and library.exists():
         return ""
     return f"this checkout is not built ({generated / lacking[0] if lacking else library} is missing): make setup build"

@@ -13,6 +13,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from derive import products
 from derive.audit import explain
 from derive.audit.checker import check_bounded, check_code, check_description, check_print, check_record
 from derive.audit.checker.record import read_record
@@ -39,6 +40,10 @@ def main(arguments: list[str] | None = None) -> int:
     )
     options = parser.parse_args(arguments)
     folder = options.generated / "audit"
+    if (options.generated / products.MANIFEST).exists() and (lacking := products.absent(options.generated)):
+        place = options.generated / lacking[0]
+        print(f"{place} is missing: `make build` makes what git does not keep", file=sys.stderr)
+        return 2
     if options.command == "verify":
         checkers = (check_record, check_code, check_description, check_bounded, check_print)
         return max(checker.main([str(folder)]) for checker in checkers)
@@ -76,7 +81,6 @@ def _kernel(folder: Path, output: Path | None) -> int:
 
 
 def _html(generated: Path, output: Path) -> int:
-    from derive import products
     from derive.audit import record
 
     named = json.loads((generated / "audit" / "artifacts.json").read_text(encoding="utf-8"))["files"]
