@@ -9,20 +9,15 @@ A tree that was read knows where: :class:`Origin`, by which the record's checker
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache, cached_property, reduce
 from typing import Any
 
-import sympy as sp
-from sympy.parsing.sympy_parser import parse_expr
-
-from derive import drives
 from derive.audit.plain_text import text
-from derive.language import description
-from derive.language.drive import Drive
+from derive.prove.collect import COLLECTED, as_tree, collected, opposite, replaced
 from derive.prove.tree import Tree, parse_formula
+from meshwright.base.expression import Evaluator
 
 
 @dataclass(frozen=True)
@@ -74,30 +69,31 @@ class Factors(list):
         return [*self.where, self.first, self.first + len(self)]
 
 
-_KNOWN = {name: getattr(sp, name) for name in ("sin", "cos", "tan", "sqrt", "atan2", "asin", "acos", "pi")}
 ARCS = ("asin", "acos", "atan", "atan2")
 #: What a mirror image of a drive's letters stands for: a half turn about x.
 HALF_TURN: Tree = ("mat", (1, 0, 0), (0, -1, 0), (0, 0, -1))
 #: The same about y.
 HALF_TURN_Y: Tree = ("mat", (-1, 0, 0), (0, 1, 0), (0, 0, -1))
 
-
-@cache
-def drive_of(name: str) -> Drive:
-    """A drive of the tree, as its page builds it."""
-    return drives.catalogue([name])[name]()
+#: Descriptions at hand, by drive. Any other is made from the drive's page.
+AT_HAND: dict[str, dict] = {}
 
 
-@cache
 def _description(name: str) -> dict:
-    return description.describe(drive_of(name))
+    if name not in AT_HAND:
+        from derive.drives import drive  # with SymPy, which nothing else here needs
+        from derive.language import description
+
+        AT_HAND[name] = description.describe(drive(name))
+    return AT_HAND[name]
 
 
 class Described:
     """The description of one drive.
 
-    ``letters`` says, in the order in which they are put in, what stands for an expression of the description: its own
-    names left, the document's right. A name on the left is not replaced by its definition.
+    ``letters`` says what stands for an expression of the description: its own names left, the document's right.
+    Products and functions on the left are replaced first, then names, one after the other; of a name on the left the
+    definition is not put in.
     """
 
     def __init__(self, drive: str, letters: Mapping[str, str]):
@@ -109,30 +105,13 @@ class Described:
         return _description(self.drive)
 
     @cached_property
-    def _definitions(self) -> dict[str, object]:
+    def _reader(self) -> Callable[[Any], Tree]:
         named = {entry["name"]: entry["value"] for entry in self.data["definitions"]}
-        return {name: value for name, value in named.items() if name not in self.letters}
+        return reader({name: value for name, value in named.items() if name not in self.letters}, self.letters)
 
     def tree(self, data: Any) -> Tree:
         """An expression of the description."""
-        written = self._read(data)
-        for old, new in self.letters.items():
-            written = written.subs(_parsed(old), _parsed(new))
-        return as_tree(description.prefix(written))
-
-    def _read(self, data: Any) -> sp.Expr:
-        match data:
-            case str():
-                return self._read(self._definitions[data]) if data in self._definitions else sp.Symbol(data)
-            case int():
-                return sp.Integer(data)
-            case ["pi"]:
-                return sp.pi
-            case ["/", int() as p, int() as q]:
-                return sp.Rational(p, q)
-            case [operation, *operands]:
-                return _OPERATIONS[operation](*map(self._read, operands))
-        raise TypeError(f"{data!r} is no expression of a description")
+        return as_tree(self._reader(data))
 
     def _of(self, part: list, tree: Tree) -> Tree:
         """The tree, with where it was read."""
@@ -240,7 +219,7 @@ class Described:
                     point = _plus(point, self.vector(data[0]))
                 case "swing":
                     axis, angle, centre = data
-                    arm = _plus(point, _negative(self.vector(centre)))
+                    arm = _plus(point, opposite(self.vector(centre)))
                     point = _plus(("@", self._rotation(axis, angle), arm), self.vector(centre))
                 case _:
                     point = ("@", self._rotation(*data), point)
@@ -275,10 +254,27 @@ class Described:
         return ("mat", *rows)
 
 
-_OPERATIONS = {
-    "+": sp.Add, "*": sp.Mul, "^": sp.Pow, "sqrt": sp.sqrt, "cos": sp.cos, "sin": sp.sin, "tan": sp.tan,
-    "atan2": sp.atan2, "asin": sp.asin, "acos": sp.acos, "atan": sp.atan, "abs": sp.Abs, "min": sp.Min, "max": sp.Max,
-}  # fmt: skip
+def reader(definitions: Mapping[str, Any], letters: Mapping[str, str]) -> Callable[[Any], Tree]:
+    """A function that collects an expression of a description in a document's letters."""
+    expressions = [(_letter(old), _letter(new)) for old, new in letters.items() if not old.isidentifier()]
+
+    def replacing(operation: Callable[..., Tree]) -> Callable[..., Tree]:
+        return lambda *parts: reduce(lambda e, letter: replaced(e, *letter), expressions, operation(*parts))
+
+    def leaf(part: Any) -> Tree:
+        return collect(definitions[part]) if part in definitions else part
+
+    collect = Evaluator(leaf, {name: replacing(operation) for name, operation in COLLECTED.items()})
+    known: dict[str | int, Tree] = {}
+    for old, new in reversed([*letters.items()]):
+        known[old] = Evaluator(lambda part: known.get(part, part), COLLECTED)(_letter(new))
+    put_in = Evaluator(lambda part: known.get(part, part), COLLECTED)
+    return lambda data: put_in(collect(data))
+
+
+@cache
+def _letter(text: str) -> Tree:
+    return collected(parse_formula(text))
 
 
 def written(tree: Tree, numbers: Mapping[str, str]) -> str:
@@ -290,84 +286,6 @@ def written(tree: Tree, numbers: Mapping[str, str]) -> str:
         return parse_formula(numbers[part]) if part in numbers else part
 
     return text(put(tree)).replace("^", "**")
-
-
-@cache
-def _parsed(text: str) -> sp.Expr:
-    names = {name: sp.Symbol(name) for name in _names(text)}
-    return parse_expr(text, local_dict=names | _KNOWN)
-
-
-def _names(text: str) -> set[str]:
-    return {name for name in re.findall(r"[A-Za-z_]\w*", text) if name not in _KNOWN}
-
-
-def as_tree(data: object) -> Tree:
-    """Prefix lists in the closed grammar, with differences and quotients as a reader writes them."""
-    match data:
-        case str() | int():
-            return data
-        case ["pi"]:
-            return "pi"
-        case ["/", int() as p, int() as q]:
-            return ("-", ("/", -p, q)) if p < 0 else ("/", p, q)
-        case ["+", *terms]:
-            return ("+", *map(as_tree, sorted(terms, key=_is_negative)))
-        case ["*", *factors]:
-            return _product(factors)
-        case ["^", base, int() as power] if power > 0:
-            return ("^", as_tree(base), power)
-        case ["^", _, int() | ["/", -1, 2]]:
-            return _product([data])
-        case ["sqrt" | "cos" | "sin" | "tan" | "atan2" as name, *operands]:
-            return (name, *map(as_tree, operands))
-    raise TypeError(f"{data!r} is not part of the closed grammar")
-
-
-def _is_negative(term: object) -> bool:
-    match term:
-        case ["*", int() as number, *_] | ["*", ["/", int() as number, int()], *_] | ["/", int() as number, int()]:
-            return number < 0
-    return isinstance(term, int) and term < 0
-
-
-def _product(factors: list) -> Tree:
-    sign = 1
-    above: list[Tree] = []
-    below: list[Tree] = []
-    for factor in factors:
-        match factor:
-            case int():
-                sign, factor = (-sign, -factor) if factor < 0 else (sign, factor)
-                above += [factor] if factor != 1 else []
-            case ["/", int() as p, int() as q]:
-                sign, p = (-sign, -p) if p < 0 else (sign, p)
-                above += [p] if p != 1 else []
-                below.append(q)
-            case ["^", base, -1]:
-                below.append(as_tree(base))
-            case ["^", base, int() as power] if power < 0:
-                below.append(("^", as_tree(base), -power))
-            case ["^", base, ["/", -1, 2]]:
-                below.append(("sqrt", as_tree(base)))
-            case _:
-                above.append(as_tree(factor))
-    value = _joined(above)
-    if below:
-        value = ("/", value, _joined(below))
-    return value if sign > 0 else _negative(value)
-
-
-def _joined(factors: list) -> Tree:
-    return 1 if not factors else factors[0] if len(factors) == 1 else ("*", *factors)
-
-
-def _negative(tree: Tree) -> Tree:
-    if tree == 0:
-        return 0
-    if isinstance(tree, tuple) and tree[0] == "vec":
-        return ("vec", *map(_negative, tree[1:]))
-    return tree[1] if isinstance(tree, tuple) and tree[0] == "-" else ("-", tree)
 
 
 def _plus(point: Tree, offset: Tree) -> Tree:

@@ -14,8 +14,8 @@ from pathlib import PurePosixPath
 
 from markupsafe import Markup
 
-from derive.audit.described import as_tree
 from derive.audit.render import MathML, symbol_text
+from derive.prove.collect import as_tree, collected
 from derive.prove.tree import Tree
 
 #: What each step of the making of a surface is called.
@@ -158,8 +158,8 @@ def _readable(data: object) -> Tree | Markup:
     if count > LONGEST:
         return Markup(f"a formula of {count} symbols and numbers, in the description")
     try:
-        return ("vec", *map(as_tree, data)) if isinstance(data, tuple) else as_tree(data)
-    except TypeError:
+        return ("vec", *map(as_tree, map(collected, data))) if isinstance(data, tuple) else as_tree(collected(data))
+    except (KeyError, TypeError):
         return Markup("a formula with cases, in the description")
 
 
@@ -198,7 +198,7 @@ def _chain(entry: dict) -> Iterator[Box]:
                 words = f"generating motion, over {symbol_text(step['variable'])}"
                 yield Box(words, _motion(step["motion"]), "motion")
             case "merged":
-                sides = as_tree(["+", step["kept"], step["removed"]])
+                sides = as_tree(collected(["+", step["kept"], step["removed"]]))
                 yield Box("one angle for a sum", Markup(_MATH.equation(step["total"], sides)), "reduced")
             case "solved":
                 yield Box("meshing solved for", _shown(step["parameter"]), "reduced")
@@ -227,7 +227,7 @@ def _steps(entry: dict, function: str, rests: Mapping[str, tuple[str, ...]]) -> 
                     function,
                 )  # fmt: skip
             case "merged":
-                sides = as_tree(["+", step["kept"], step["removed"]])
+                sides = as_tree(collected(["+", step["kept"], step["removed"]]))
                 yield Step(STEPS["merged"], (Markup(_MATH.equation(step["total"], sides)),),
                            _of(own, "derivation/merge-sum", "cylindrical_worm/sum-angle"), function)  # fmt: skip
             case "solved":

@@ -14,7 +14,6 @@ from derive.audit.identities import conventions, cylindrical_gears, cylindrical_
 from derive.audit.identities import face_worm as face_worm_drives
 from derive.audit.identities import spherical as spherical_gears
 from derive.audit.ledger import Chapter, Ledger, build
-from derive.audit.pages import pages
 
 
 def chapters() -> list[Chapter]:
@@ -35,6 +34,8 @@ def ledger() -> Ledger:
 
 def files(record: Ledger, generated: Mapping[str, str]) -> dict[str, str]:
     """Relative path -> text of everything under audit/. `generated` are the other files, sealed as well."""
+    from derive.audit.pages import pages  # with SymPy, which the record does without
+
     functions = {path: functions_of(text) for path, text in sorted(generated.items()) if path.endswith(".h")}
     used = {path: table for path, table in functions.items() if table}
     texts = store.record_files(record) | pages(record, chapters(), used, by_family(generated), generated)

@@ -10,9 +10,9 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import cache
 
+from derive import drives
 from derive.audit.checker.seal import KEY
 from derive.audit.claims import Claim, Figure, FigureClaim
-from derive.audit.described import drive_of
 from derive.audit.ledger import Chapter, Judged, Ledger, Verdict, drives_read, judged
 from derive.language.drive import citations
 from derive.language.written import shown
@@ -92,6 +92,6 @@ def _counterexample(part: Judged) -> str:
 def _pages_citing(name: str) -> Mapping[str, frozenset[str]]:
     """Statement → files that cite it where a drive of the tree is described."""
     found: dict[str, set[str]] = {}
-    for statement in citations(drive_of(name)):
+    for statement in citations(drives.drive(name)):
         found.setdefault(statement, set()).add(statement.page)
     return {statement: frozenset(pages) for statement, pages in found.items()}

@@ -3,6 +3,7 @@
 A module offers ``catalogue()``: name → function that builds the drive.
 """
 
+from functools import cache
 from importlib import import_module
 
 FAMILIES = ("cylindrical_worm", "spherical", "cylindrical_gears", "face_worm", "bevel")
@@ -16,3 +17,9 @@ def catalogue(wanted=FAMILIES):
         for family in families
         for name, build in import_module(f"derive.drives.{family}").catalogue().items()
     }
+
+
+@cache
+def drive(name):
+    """A drive of the tree, as its page builds it."""
+    return catalogue([name])[name]()

@@ -7,61 +7,19 @@ the steps by which they were made. ``derive/language/description.md`` documents 
 import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
-from functools import cache
 from typing import TypeAlias
 
-import sympy as sp
-
 from derive.language.chain import Factor, Motion, Placement, Rotation, Station, Swing, Translation
-from derive.language.choice import excess, unit_step
 from derive.language.drive import Body, Count, DesignSystem, Drive, Margin, Region, Values
+from derive.language.prefix import Prefix, prefix
 from derive.language.surface import Step, StepData, Surface
 from derive.language.symbols import Parameter, Quantity, Rule, Unknown
 from derive.language.vectors import Number
-
-#: An expression as plain data: see :func:`prefix`.
-Prefix: TypeAlias = "str | int | list[Prefix]"
 
 #: What JSON can hold.
 Data: TypeAlias = "Mapping[str, Data] | Sequence[Data] | str | int | float | None"
 
 SCHEMA = "meshwright.description/1"
-
-_FUNCTIONS: dict[type[sp.Expr], str] = {
-    sp.sin: "sin", sp.cos: "cos", sp.tan: "tan", sp.asin: "asin", sp.acos: "acos", sp.atan: "atan",
-    sp.atan2: "atan2", sp.Abs: "abs", sp.Min: "min", sp.Max: "max", sp.sign: "sign",
-    unit_step: "unit_step", excess: "excess",
-}  # fmt: skip
-
-
-def prefix(expression: Number) -> Prefix:
-    """An expression as a prefix list: a symbol's name, an integer, or ``[operation, operand, …]``.
-
-    Rational numbers are ``["/", p, q]``. Raises TypeError for what has no exact form.
-    """
-    return _prefix(sp.sympify(expression))
-
-
-@cache
-def _prefix(e: sp.Expr) -> Prefix:
-    if isinstance(e, sp.Symbol):
-        return e.name
-    if isinstance(e, sp.Integer):
-        return int(e)
-    if isinstance(e, sp.Rational):
-        return ["/", int(e.p), int(e.q)]
-    if e is sp.pi:
-        return ["pi"]
-    operands = [_prefix(argument) for argument in e.args]
-    if isinstance(e, sp.Add):
-        return ["+", *operands]
-    if isinstance(e, sp.Mul):
-        return ["*", *operands]
-    if isinstance(e, sp.Pow):
-        return ["sqrt", operands[0]] if e.exp == sp.Rational(1, 2) else ["^", *operands]
-    if e.func in _FUNCTIONS:
-        return [_FUNCTIONS[e.func], *operands]
-    raise TypeError(f"{e} has no exact form in a description")
 
 
 def _vector(vector: Iterable[Number]) -> list[Prefix]:

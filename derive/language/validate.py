@@ -17,9 +17,10 @@ from derive.language.definitions import Definitions
 from derive.language.differentiate import partial
 from derive.language.drive import PATH, Drive, Margin, Region, Role
 from derive.language.functions import OUTLINE, SOLID, SOLID_UNITS, WITH_GENERATION, read_of
+from derive.language.prefix import COMPUTED
 from derive.language.printed import misnamed
 from derive.language.refusal import DescriptionError
-from derive.language.sampled import COMPUTED, vanishes
+from derive.language.sampled import vanishes
 from derive.language.surface import Surface
 from derive.language.symbols import Parameter, Quantity, Table, Unknown, foreign_unit, interface_unit, unit_suffixes
 from derive.language.vectors import Number
@@ -362,7 +363,7 @@ def _exact(drive: Drive) -> Iterator[str]:
     """Numbers are exact and real: an inexact one has no place in a proof, one that is no number none in a gear.
     Functions are those that generated code computes.
     """
-    yield from _inexact(_expressions(drive), COMPUTED)
+    yield from _inexact(_expressions(drive), COMPUTED.keys())
     proportions = ((f"the proportion for {rule.target}", rule.value) for rule in drive.proportions)
     yield from _inexact(proportions, (*COMPUTED, sp.Min, sp.Max))
 

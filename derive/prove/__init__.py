@@ -1,6 +1,7 @@
 """Exact decisions about identities between expression trees.
 
 tree.py          the closed grammar and its compact notation
+collect.py       sums and products collected; a description's expressions in the closed grammar
 statement.py     lhs = rhs with the definitions of its names
 polynomial.py fraction.py evaluate.py normal_form.py       the ring, and trees as elements of it
 points.py        rational points for refutations and worked numbers

@@ -13,6 +13,7 @@ from derive.prove.normal_form import Relation
 from derive.prove.polynomial import BACKENDS, Poly, PolynomialRing
 from derive.prove.statement import Statement
 from derive.prove.tree import NotationError, Tree
+from meshwright.base import expression
 
 Vector: TypeAlias = "tuple[Quotient, ...]"
 #: What a tree becomes: a quotient, or three, or nine of them; which, its grammar says, not Python's types.
@@ -54,17 +55,10 @@ class Evaluator:
         names += [name for angle in statement.angles for name in (angle.cosine, angle.sine)]
         self.ring = PolynomialRing(tuple(names), backend)
         self.relations = self._circle_and_sign_relations()
-        self._known: dict[Tree, Value] = {}
+        self.value = expression.Evaluator(self._leaf, ALGEBRA, self._nodes(), key=lambda tree: tree)
         self._angles = {angle.symbol: angle for angle in statement.angles}
         for radicand in radicands:
             self._adjoin_root(radicand)
-
-    def value(self, tree: Tree) -> Value:
-        """The tree's value; every subtree is computed once."""
-        known = self._known.get(tree)
-        if known is None:
-            known = self._known[tree] = self._evaluate(tree)
-        return known
 
     def constant(self, value: int) -> Quotient:
         return Quotient(self.ring, self.ring.constant(value))
@@ -96,45 +90,39 @@ class Evaluator:
             self.relations = (known, *self.relations)
         self.roots.append(Root(radicand, known.generator, divisor))
 
-    def _evaluate(self, tree: Tree) -> Value:
-        if isinstance(tree, int):
-            return self.constant(tree)
-        if isinstance(tree, str):
-            return self.value(self.statement.used[tree]) if tree in self.statement.used else self.generator(tree)
-        operation, *arguments = tree
-        match operation:
-            case "+":
-                return _fold(lambda a, b: _zip(Quotient.__add__, a, b), map(self.value, arguments))
-            case "-":
-                return _map(Quotient.__neg__, self.value(arguments[0]))
-            case "*":
-                return _fold(_times, map(self.value, arguments))
-            case "/":
-                divisor = self.value(arguments[1])
-                return _map(lambda part: part / divisor, self.value(arguments[0]))
-            case "^":
-                return self.value(arguments[0]) ** arguments[1]
-            case "sqrt":
-                return self._root(next(root for root in self.roots if root.radicand == arguments[0]))
-            case "atan2":
-                return self.generator(self.arcs[tree])
-            case "jet":
-                return self.generator(jet_name(arguments[0], tuple(arguments[1:])))
-            case "cos" | "sin" | "tan":
-                cosine, sine = self._cosine_and_sine(arguments[0])
-                return {"cos": lambda: cosine, "sin": lambda: sine, "tan": lambda: sine / cosine}[operation]()
-            case "Rx" | "Ry" | "Rz":
-                return self._rotation("xyz".index(operation[1]), *self._cosine_and_sine(arguments[0]))
-            case "d":
-                rates = self._rates({symbol: self.value(rate) for symbol, rate in arguments[1:]})
-                return _map(lambda part: part.derivative(rates), self.value(arguments[0]))
-            case "mat":
-                return tuple(tuple(map(self.value, row)) for row in arguments)
-            case "at":
-                return self.value(arguments[0])[arguments[1]]
-            case "entry":
-                return self.value(arguments[0])[arguments[1]][arguments[2]]
-        return ALGEBRA[operation](*map(self.value, arguments))
+    def _leaf(self, part: str | int) -> Value:
+        if isinstance(part, int):
+            return self.constant(part)
+        return self.value(self.statement.used[part]) if part in self.statement.used else self.generator(part)
+
+    def _nodes(self) -> dict[str, Callable[..., Value]]:
+        """What depends on more than the values of its operands."""
+
+        def turned(axis: int) -> Callable[[Tree], Value]:
+            return lambda angle: self._rotation(axis, *self._cosine_and_sine(angle))
+
+        def tangent(angle: Tree) -> Quotient:
+            cosine, sine = self._cosine_and_sine(angle)
+            return sine / cosine
+
+        return {
+            "^": lambda base, exponent: self.value(base) ** exponent,
+            "sqrt": lambda radicand: self._root(next(root for root in self.roots if root.radicand == radicand)),
+            "cos": lambda angle: self._cosine_and_sine(angle)[0],
+            "sin": lambda angle: self._cosine_and_sine(angle)[1],
+            "tan": tangent,
+            "atan2": lambda y, x: self.generator(self.arcs["atan2", y, x]),
+            "jet": lambda name, *orders: self.generator(jet_name(name, orders)),
+            "d": self._derivative,
+            "mat": lambda *rows: tuple(tuple(map(self.value, row)) for row in rows),
+            "at": lambda vector, place: self.value(vector)[place],
+            "entry": lambda matrix, row, column: self.value(matrix)[row][column],
+            **{f"R{axis}": turned(place) for place, axis in enumerate("xyz")},
+        }
+
+    def _derivative(self, tree: Tree, *moving: tuple[str, Tree]) -> Value:
+        rates = self._rates({symbol: self.value(rate) for symbol, rate in moving})
+        return _map(lambda part: part.derivative(rates), self.value(tree))
 
     def _root(self, root: Root) -> Quotient:
         return self.generator(root.generator) / Quotient(self.ring, root.divisor)
@@ -249,6 +237,10 @@ def _matmul(left: tuple[Vector, ...], right: Value) -> Value:
 
 
 ALGEBRA: dict[str, Callable[..., Value]] = {
+    "+": lambda *terms: _fold(lambda a, b: _zip(Quotient.__add__, a, b), terms),
+    "-": lambda value: _map(Quotient.__neg__, value),
+    "*": lambda *factors: _fold(_times, factors),
+    "/": lambda value, divisor: _map(lambda part: part / divisor, value),
     "vec": lambda *parts: parts,
     "dot": _dot,
     "cross": _cross,

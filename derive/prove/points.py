@@ -8,12 +8,13 @@ angle that depends on other values also occurs, their values are rational to 1e-
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from itertools import islice
-from math import isqrt
+
+import mpmath
 
 from derive.prove.angles import PI
 from derive.prove.evaluate import Evaluator
@@ -27,7 +28,7 @@ HALF_TANGENTS = tuple(
 LENGTHS = tuple(map(Fraction, (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47)))
 #: More than any of them: where two symbols of a point were equal, a determinant could vanish.
 BEYOND = 60
-SCALE = 10**30
+DIGITS, SCALE = 60, 10**30
 THRESHOLD = Fraction(1, 10**9)
 
 
@@ -108,7 +109,7 @@ def _point(evaluator: Evaluator, attempt: int) -> Point | None:
             return None
         if kind == "angle":
             angle = by_symbol[tree]
-            values[angle.cosine], values[angle.sine] = cosine_and_sine(value / angle.divisor, values[PI])
+            values[angle.cosine], values[angle.sine] = cosine_and_sine(value / angle.divisor)
         else:
             root = next(root for root in evaluator.roots if root.radicand == tree)
             values[root.generator] = _sum(
@@ -118,18 +119,26 @@ def _point(evaluator: Evaluator, attempt: int) -> Point | None:
 
 
 def square_root(value: Fraction) -> Fraction:
-    return Fraction(isqrt(value.numerator * SCALE**2 // value.denominator), SCALE)
+    return _rational(lambda: mpmath.sqrt(_real(value)))
 
 
-def cosine_and_sine(angle: Fraction, pi: Fraction) -> tuple[Fraction, Fraction]:
-    """By Taylor series after taking off full turns, to better than 1e-25."""
-    x = _rounded(angle - 2 * pi * round(angle / (2 * pi)))
-    totals, term, n = [Fraction(0), Fraction(0)], Fraction(1), 0
-    while n < 4 or abs(term) > Fraction(1, 100 * SCALE):
-        totals[n % 2] += term * (-1) ** (n // 2)
-        n += 1
-        term = _rounded(term * x / n)
-    return totals[0], totals[1]
+def cosine_and_sine(angle: Fraction) -> tuple[Fraction, Fraction]:
+    return _rational(lambda: mpmath.cos(_real(angle))), _rational(lambda: mpmath.sin(_real(angle)))
+
+
+@cache
+def arctangent(t: Fraction) -> Fraction:
+    return _rational(lambda: mpmath.atan(_real(t)))
+
+
+def _real(value: Fraction) -> mpmath.mpf:
+    return mpmath.mpf(value.numerator) / value.denominator
+
+
+def _rational(value: Callable[[], mpmath.mpf]) -> Fraction:
+    """A real number, rational to 1e-30."""
+    with mpmath.workdps(DIGITS):
+        return Fraction(int(mpmath.floor(value() * SCALE + 0.5)), SCALE)
 
 
 def _sum(terms: Terms, names: tuple[str, ...], values: dict[str, Fraction]) -> Fraction:
@@ -141,25 +150,3 @@ def _sum(terms: Terms, names: tuple[str, ...], values: dict[str, Fraction]) -> F
                 product *= values[name] ** power
         total += product
     return total
-
-
-@cache
-def arctangent(t: Fraction) -> Fraction:
-    """arctan t to 1e-30: Euler's series, after one halving of the angle where t is large."""
-    if t < 0:
-        return -arctangent(-t)
-    if t > 1:
-        return 2 * arctangent(t / (1 + square_root(1 + t * t)))
-    square = t * t / (1 + t * t)
-    term = total = t / (1 + t * t)
-    n = 1
-    while term > Fraction(1, 100 * SCALE):
-        term *= square * 2 * n / (2 * n + 1)
-        total += term
-        n += 1
-        term, total = _rounded(term), _rounded(total)
-    return total
-
-
-def _rounded(value: Fraction) -> Fraction:
-    return Fraction(value.numerator * SCALE * 1000 // value.denominator, SCALE * 1000)

@@ -1,7 +1,7 @@
 """Expression trees: the closed grammar in which every statement is written, printed, hashed and checked.
 
-A tree is a nested tuple whose first entry names the node; a symbol is a string, an integer an int. Nothing is ever
-evaluated, ordered or collapsed: a tree is what was printed, term by term.
+A tree is an expression as data (:mod:`meshwright.base.expression`), a nested tuple with more operations than those of a
+description. Nothing is ever evaluated, ordered or collapsed: a tree is what was printed, term by term.
 
     scalar   int, symbol, ("+", a, b, ...), ("-", a), ("*", a, b, ...), ("/", a, b), ("^", a, n), ("sqrt", a),
              ("cos" | "sin" | "tan", angle), ("atan2", y, x), ("jet", name, order, ...), ("dot", u, v),

@@ -13,11 +13,12 @@ from pathlib import Path
 
 import numpy as np
 
+from meshwright.base import expression
 from meshwright.base.drives import folders
 from meshwright.base.errors import DesignError
 from meshwright.base.library import ffi, library, model, model_in_lanes, pointer, text
 from meshwright.design import description as metadata
-from meshwright.design import expression, schema
+from meshwright.design import schema
 from meshwright.design.mirror import Mirror
 
 PACKAGED = Path(__file__).parent.parent / "designs"

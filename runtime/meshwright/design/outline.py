@@ -5,7 +5,7 @@ import math
 from dataclasses import dataclass
 
 from meshwright.base.errors import UsageError
-from meshwright.design.expression import value
+from meshwright.base.expression import value
 
 #: Sizes farther from the family's proportions than this share are told where flanks do not meet.
 ASTRAY = 0.1

@@ -4,9 +4,9 @@ import math
 from dataclasses import dataclass
 
 from meshwright.base.errors import DesignError
+from meshwright.base.expression import completed, value
 from meshwright.design import description as metadata
 from meshwright.design import design as designs
-from meshwright.design.expression import completed, value
 from meshwright.rexs import values
 from meshwright.rexs.document import RexsError
 from meshwright.rexs.places import bound, exchanges, stage_of

@@ -12,9 +12,9 @@ from datetime import UTC, datetime
 from xml.sax.saxutils import escape, quoteattr
 
 from meshwright.base.errors import UsageError
+from meshwright.base.expression import value
 from meshwright.design import description as metadata
 from meshwright.design import design as designs
-from meshwright.design.expression import value
 from meshwright.rexs import values
 from meshwright.rexs.document import NAMESPACE, spliced
 from meshwright.rexs.places import bound, stage_of

@@ -1,10 +1,12 @@
 """Expressions of a description: values by hand, and what has none."""
 
 import math
+import operator
+from fractions import Fraction
 
 import pytest
 
-from meshwright.design.expression import completed, value
+from meshwright.base.expression import Evaluator, completed, value
 
 SYMBOLS = {"a": 2.0, "b": 0.5, "open": math.nan}
 
@@ -20,6 +22,9 @@ CASES = [
     (["min", "a", "b"], 0.5),
     (["excess", ["*", -1, "a"]], 0.0),
     (["sqrt", ["abs", ["*", -1, "a"]]], math.sqrt(2)),
+    (["unit_step", 0], 1.0),
+    (["sign", 0], 1.0),
+    (("sign", ("*", -1, "b")), -1.0),
 ]
 
 
@@ -39,3 +44,15 @@ def test_what_has_no_value_is_not_a_number(expression):
 def test_rules_fill_what_is_open_in_their_order():
     rules = [["open", ["*", "a", 3]], ["a", 7], ["later", ["+", "open", 1]]]
     assert completed(rules, SYMBOLS | {"later": math.nan}) == {"a": 2.0, "b": 0.5, "open": 6.0, "later": 7.0}
+
+
+def test_any_kind_of_number_has_its_operations_and_nodes_of_its_own():
+    evaluated = []
+    exact = Evaluator(
+        lambda leaf: evaluated.append(leaf) or Fraction(2 if leaf == "x" else leaf),
+        {"+": lambda *terms: sum(terms), "/": operator.truediv, "double": lambda a: 2 * a},
+        {"^": lambda base, exponent: exact(base) ** exponent},
+    )
+    third = ["/", "x", 6]
+    assert exact(["+", third, ["double", ["^", third, -2]], third]) == Fraction(56, 3)
+    assert evaluated == ["x", 6]

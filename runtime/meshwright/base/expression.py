@@ -1,0 +1,100 @@
+"""Expressions as data, and their values in any kind of number.
+
+An expression is a name, a whole number, or a list or tuple ``[operation, operand, …]``: ``"m_n"`` is a symbol,
+``["/", 1, 4]`` a quotient, ``["*", "m_n", ["cos", "alpha"]]`` a product. Descriptions hold such expressions as JSON;
+``derive/language/description.md`` lists their operations.
+"""
+
+from __future__ import annotations
+
+import math
+import operator
+from collections.abc import Callable, Hashable, Mapping
+from typing import Any, Generic, TypeVar
+
+T = TypeVar("T")
+
+_ALIKE = ("sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2")
+
+
+class Evaluator(Generic[T]):
+    """Values of expressions in one kind of number.
+
+    ``leaf`` gives the value of a name or a whole number, ``operations`` are functions of the values of operands,
+    ``nodes`` functions of operands as they are written. Each part of an expression is evaluated once; two parts are the
+    same where ``key`` is, by default one object. ``read`` makes an expression of what stands for one.
+    """
+
+    def __init__(
+        self,
+        leaf: Callable[[Any], T],
+        operations: Mapping[str, Callable[..., T]],
+        nodes: Mapping[str, Callable[..., T]] | None = None,
+        key: Callable[[Any], Hashable] = id,
+        read: Callable[[Any], Any] = lambda expression: expression,
+    ):
+        self.leaf, self.operations, self.nodes, self.key, self.read = leaf, operations, nodes or {}, key, read
+        # a part is kept with its value, so that no other object gets its identity
+        self._known: dict[Hashable, tuple[Any, T]] = {}
+
+    def __call__(self, expression: Any) -> T:
+        """The value of an expression; KeyError for an operation that these numbers do not have."""
+        key = self.key(expression)
+        if key not in self._known:
+            self._known[key] = expression, self._value(self.read(expression))
+        return self._known[key][1]
+
+    def _value(self, expression: Any) -> T:
+        if not isinstance(expression, list | tuple):
+            return self.leaf(expression)
+        operation, *operands = expression
+        if operation in self.nodes:
+            return self.nodes[operation](*operands)
+        return self.operations[operation](*map(self, operands))
+
+
+def real_operations(of: Any, power: Callable[[T, T], T]) -> dict[str, Callable[..., T]]:
+    """The operations of a description by the functions of a module such as ``math``; not a number where an operand is
+    none.
+    """
+    functions: dict[str, Callable[..., Any]] = {
+        "+": lambda *terms: of.fsum(terms),
+        "*": lambda *factors: math.prod(factors),
+        "/": operator.truediv,
+        "^": power,
+        "pi": lambda: +of.pi,
+        **{name: getattr(of, name) for name in _ALIKE},
+        "abs": lambda a: max(a, -a), "sign": lambda a: -1 if a < 0 else 1,
+        "min": lambda *values: min(values), "max": lambda *values: max(values),
+        "unit_step": lambda a: int(a >= 0), "excess": lambda a: max(a, 0),
+    }  # fmt: skip
+
+    def of_numbers(function: Callable[..., Any]) -> Callable[..., Any]:
+        return lambda *numbers: of.nan if any(map(of.isnan, numbers)) else function(*numbers)
+
+    return {name: of_numbers(function) for name, function in functions.items()}
+
+
+FLOATS = real_operations(math, math.pow)
+
+
+def value(expression: Any, symbols: Mapping[str, float]) -> float:
+    """The value of an expression; ``symbols`` are numbers by name, NaN where they are open.
+
+    What is not a number (an open parameter, a root of a negative number) makes what depends on it not a number.
+    """
+    evaluator = Evaluator(lambda leaf: float(symbols[leaf] if isinstance(leaf, str) else leaf), FLOATS)
+    try:
+        result = float(evaluator(expression))
+    except (ValueError, ZeroDivisionError, OverflowError):
+        return math.nan
+    return result if math.isfinite(result) else math.nan
+
+
+def completed(rules: Any, symbols: Mapping[str, float]) -> dict[str, float]:
+    """``symbols`` with what rules (pairs of a name and an expression), in their order, give to those that are open."""
+    known = dict(symbols)
+    for name, expression in rules:
+        if math.isnan(known[name]):
+            known[name] = value(expression, known)
+    return known
