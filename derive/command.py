@@ -26,7 +26,6 @@ from functools import partial
 from pathlib import Path
 
 from derive import compiler, drive_folder, generated, products
-from derive.audit.ledger import Ledger
 from derive.audit.standing import UNKNOWN, Standing, of_ledger, standings
 from derive.compiler import Compiled
 from derive.emit import families
@@ -114,23 +113,25 @@ def _everything(folder: Path, every: bool) -> list[Compiled]:
     """Replace every generated file, all of it proved anew; of the drives the packaged ones, or every one."""
     from derive.audit import record
 
-    def prove() -> Ledger:
-        with log("prove", "audit record"):
-            return record.ledger()
-
-    proved = submit(prove)
-    with log("define", "families"), told("define", "the families"):
-        listed = [page.build() for page in pages([EVERY])]
-        validate_outlines(listed)
-        table = families.table(listed)
-    ledger = proved()
-    made = _compiled(of_tree([drive.name for drive in listed] if every else packaged(table)), of_ledger(ledger))
+    defined = submit(_families)
+    with log("prove", "audit record"):
+        ledger = record.ledger()
+    table, names = defined()
+    made = _compiled(of_tree(names if every else packaged(table)), of_ledger(ledger))
     files = {path: text for compiled in made for path, text in compiled.files.items()}
     files |= {"families.json": families.text(table), "README.md": products.readme()}
     with log("emit", "audit record"):
         files |= record.files(ledger, files)
     generated.replace(folder, files)
     return made
+
+
+def _families() -> tuple[dict, list[str]]:
+    """The table of families, and the names of all drives."""
+    with log("define", "families"), told("define", "the families"):
+        listed = [page.build() for page in pages([EVERY])]
+        validate_outlines(listed)
+        return families.table(listed), [drive.name for drive in listed]
 
 
 def _compiled(listed: Sequence[Page], known: Mapping[str, Standing]) -> list[Compiled]:

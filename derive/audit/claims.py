@@ -5,7 +5,7 @@ A claim holds the print and our reading of it. Its verdict is never written here
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
@@ -33,12 +33,21 @@ class Document:
 
 @dataclass(frozen=True)
 class Scope:
-    """Names with their definitions. `extends` makes a scope that adds names to another."""
+    """Names with their definitions, read when a statement needs them. `extends` makes a scope that adds names to
+    another; `described` gives what is read from drives' descriptions, which `typed` may use.
+    """
 
     key: str
-    definitions: Mapping[str, Tree]
+    typed: Mapping[str, Tree]
     jets: Mapping[str, tuple[str, ...]]
     signs: frozenset[str]
+    described: Callable[[], Mapping[str, Tree]] = dict
+    extends: Scope | None = None
+
+    @cached_property
+    def definitions(self) -> dict[str, Tree]:
+        """Name -> tree, in order."""
+        return dict(self.extends.definitions if self.extends else {}) | dict(self.described()) | dict(self.typed)
 
     def read(self, text: str) -> Tree:
         return parse(text, self.jets)
@@ -55,19 +64,20 @@ def scope(
     jets: Mapping[str, tuple[str, ...]] | None = None,
     signs: Sequence[str] = (),
     extends: Scope | None = None,
-    described: Mapping[str, Tree] | None = None,
+    described: Callable[[], Mapping[str, Tree]] = dict,
 ) -> Scope:
     """Read definitions, one `name = expression` a line; a line that starts with a space continues the one before.
 
-    `described` are definitions read from a drive's description; those of the text may use them.
+    `described` gives definitions read from a drive's description; those of the text may use them.
     """
     merged = dict(extends.jets if extends else {}) | dict(jets or {})
-    definitions = dict(extends.definitions if extends else {}) | dict(described or {})
+    typed = {}
     for line in text.strip().replace("\n ", " ").splitlines():
         if line.strip():
             name, expression = line.split(" = ", 1)
-            definitions[name.strip()] = parse(expression, merged)
-    return Scope(key, definitions, merged, frozenset(signs) | (extends.signs if extends else frozenset()))
+            typed[name.strip()] = parse(expression, merged)
+    all_signs = frozenset(signs) | (extends.signs if extends else frozenset())
+    return Scope(key, typed, merged, all_signs, described, extends)
 
 
 Texts = str | Sequence[str]

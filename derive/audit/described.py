@@ -9,7 +9,7 @@ A tree that was read knows where: :class:`Origin`, by which the record's checker
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property, reduce
 from typing import Any
@@ -52,21 +52,44 @@ def origin_of(tree: Tree) -> Origin | None:
     return getattr(tree, "origin", None)
 
 
-class Factors(list):
-    """A motion's factors, and where they stand: kind, place, first and last."""
+class Factors:
+    """A motion's factors, read when they are asked for, and where they stand: kind, place, first and last."""
 
-    def __init__(self, factors: Sequence, where: tuple[str, str], first: int = 0):
-        super().__init__(factors)
-        self.where, self.first = where, first
+    def __init__(self, read: Callable[[], Sequence], where: tuple[str, str], first: int = 0):
+        self._read, self.where, self._first = read, where, first
 
-    def __getitem__(self, index: Any) -> Any:
-        if not isinstance(index, slice):
-            return super().__getitem__(index)
-        return Factors(super().__getitem__(index), self.where, self.first + index.indices(len(self))[0])
+    @cached_property
+    def _all(self) -> Sequence:
+        return self._read()
+
+    def __iter__(self) -> Iterator:
+        return iter(self._all)
+
+    def __reversed__(self) -> Iterator:
+        return reversed(self._all)
+
+    def __getitem__(self, cut: slice) -> Factors:
+        return _Cut(self, cut)
+
+    @property
+    def first(self) -> int:
+        return self._first
 
     @property
     def part(self) -> list:
-        return [*self.where, self.first, self.first + len(self)]
+        return [*self.where, self.first, self.first + len(self._all)]
+
+
+class _Cut(Factors):
+    """Some of a motion's factors, one after the other."""
+
+    def __init__(self, whole: Factors, cut: slice):
+        super().__init__(lambda: [*whole][cut], whole.where)
+        self._whole, self._slice = whole, cut
+
+    @property
+    def first(self) -> int:
+        return self._whole.first + self._slice.indices(len([*self._whole]))[0]
 
 
 ARCS = ("asin", "acos", "atan", "atan2")
@@ -168,6 +191,13 @@ class Described:
     def _steps(self, place: str) -> list[dict]:
         return self._place(place)["surface"]["made"]
 
+    def _step(self, steps: Sequence[dict], word: str) -> dict:
+        """The first of these steps of this kind."""
+        for step in steps:
+            if step["step"] == word:
+                return step
+        raise LookupError(f"nothing of {self.drive} is {word} any more")
+
     def edge(self, place: str) -> Tree:
         """The tool's edge, or its given point."""
         first = self._steps(place)[0]
@@ -181,16 +211,14 @@ class Described:
         return self._of(["normal", place], self.vector(self._place(place)["surface"]["normal"]))
 
     def sweep(self, place: str) -> Factors:
-        return Factors(self._steps(place)[0]["motion"], ("sweep", place))
+        return Factors(lambda: self._steps(place)[0]["motion"], ("sweep", place))
 
     def moved(self, place: str) -> Factors:
-        step = next(step for step in self._steps(place) if step["step"] == "moved")
-        return Factors(step["motion"], ("moved", place))
+        return Factors(lambda: self._step(self._steps(place), "moved")["motion"], ("moved", place))
 
     def generation(self, place: str) -> Factors:
         """The motion of the tool against the blank."""
-        step = next(step for step in reversed(self._steps(place)) if step["step"] == "envelope")
-        return Factors(step["motion"], ("generation", place))
+        return Factors(lambda: self._step(self._steps(place)[::-1], "envelope")["motion"], ("generation", place))
 
     def condition(self, place: str, number: int = 1) -> Tree:
         condition = self._place(place)["surface"]["conditions"][number - 1]
@@ -198,12 +226,11 @@ class Described:
 
     def solved(self, place: str) -> Tree:
         """What the equation of meshing was solved by."""
-        value = next(step["value"] for step in self._steps(place) if step["step"] == "solved")
-        return self._of(["solved", place], self.tree(value))
+        return self._of(["solved", place], self.tree(self._step(self._steps(place), "solved")["value"]))
 
     def motion(self, place: str) -> Factors:
         """The motion of a body into the fixed frame."""
-        return Factors(self._place(place)["motion"], ("motion", place))
+        return Factors(lambda: self._place(place)["motion"], ("motion", place))
 
     # -- trees
 

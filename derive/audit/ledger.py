@@ -80,7 +80,9 @@ class Reading:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What came out for one claim. `change` says which token a correction changes."""
+    """What came out for one claim. `change` says which token a correction changes, `unreadable` why nothing came out:
+    a description has no longer what the claim reads.
+    """
 
     claim: Claim | FigureClaim
     status: str
@@ -90,6 +92,7 @@ class Verdict:
     change: str = ""
     id: str = ""
     sha256: str = ""
+    unreadable: str = ""
 
 
 @dataclass
@@ -120,11 +123,16 @@ def build(chapters: Sequence[Chapter]) -> Ledger:
 
 
 def judged(ledger: Ledger, document: Document, claim: Claim | FigureClaim) -> Verdict:
-    """Judge one claim and enter all that it rests on."""
-    source = ledger.add(_source(document, claim))
-    judge = _judge_figures if isinstance(claim, FigureClaim) else _judge
-    verdict = judge(ledger, document, claim, source)
+    """Judge one claim and enter all that it rests on; nothing of one that cannot be read."""
     identifier = f"{document.key}/{claim.key}"
+    entered = Ledger(dict(ledger.objects))
+    try:
+        source = entered.add(_source(document, claim))
+        judge = _judge_figures if isinstance(claim, FigureClaim) else _judge
+        verdict = judge(entered, document, claim, source)
+    except Exception as error:  # noqa: BLE001  whatever a description holds now where the claim read something else
+        return Verdict(claim, "undecided", id=identifier, unreadable=f"{type(error).__name__}: {error}")
+    ledger.objects.update(entered.objects)
     return replace(verdict, id=identifier, sha256=ledger.add(_verdict_body(verdict, identifier, source)))
 
 

@@ -12,8 +12,8 @@ from functools import cache
 
 from derive import drives
 from derive.audit.checker.seal import KEY
-from derive.audit.claims import Claim, Figure, FigureClaim
-from derive.audit.ledger import Chapter, Judged, Ledger, Verdict, drives_read, judged
+from derive.audit.claims import Figure
+from derive.audit.ledger import Judged, Ledger, Verdict, drives_read, judged
 from derive.language.drive import citations
 from derive.language.written import shown
 from derive.prove import Outcome
@@ -48,21 +48,22 @@ def standings(names: Collection[str]) -> dict[str, Standing]:
     """The statements of these names, each read and decided now."""
     from derive.audit import record
 
-    known = ((chapter, claim) for chapter in record.chapters() for claim in chapter.claims)
-    claims = {f"{chapter.document.key}/{claim.key}": (chapter, claim) for chapter, claim in known}
-    return {name: _standing(*claims[name]) if name in claims else UNKNOWN for name in names}
+    found: dict[str, Standing] = dict.fromkeys(names, UNKNOWN)
+    for chapter in record.chapters({name.partition("/")[0] for name in names}):
+        for claim in chapter.claims:
+            if (name := f"{chapter.document.key}/{claim.key}") in found:
+                found[name] = _standing(judged(Ledger(), chapter.document, claim))
+    return found
 
 
 def of_ledger(ledger: Ledger) -> dict[str, Standing]:
     """All statements of a ledger that was just built."""
-    return {verdict.id: _of_verdict(verdict) for verdicts in ledger.verdicts.values() for verdict in verdicts}
+    return {verdict.id: _standing(verdict) for verdicts in ledger.verdicts.values() for verdict in verdicts}
 
 
-def _standing(chapter: Chapter, claim: Claim | FigureClaim) -> Standing:
-    return _of_verdict(judged(Ledger(), chapter.document, claim))
-
-
-def _of_verdict(verdict: Verdict) -> Standing:
+def _standing(verdict: Verdict) -> Standing:
+    if verdict.unreadable:
+        return Standing("", f"cannot be read of the description any more: {verdict.unreadable}")
     read = drives_read(verdict)
     pages = frozenset(page for name in read for page in _pages_citing(name).get(verdict.id, ())) if read else None
     return Standing(verdict.sha256[:KEY], _open(verdict), pages)

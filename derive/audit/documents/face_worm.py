@@ -49,7 +49,7 @@ velocity = m*cross(vec(0, 0, 1), moved) - cross(vec(1, 0, 0), moved - vec(L, E_m
 normal = cross(d(tool, u), d(tool, theta))
 """,
     jets={"x": ("u", "theta"), "y": ("u", "theta"), "z": ("u", "theta")},
-    described={"r1": DRIVE.carried(CUTTING, "tool")},
+    described=lambda: {"r1": DRIVE.carried(CUTTING, "tool")},
 )
 
 HOB = scope(
@@ -58,7 +58,7 @@ HOB = scope(
 f = triple(d(r2, u), d(r2, theta), d(r2, (psi, 1), (phi2, m)))
 """,
     jets={"x": ("u", "theta"), "y": ("u", "theta"), "z": ("u", "theta")},
-    described={
+    described=lambda: {
         "hob": ("vec", *(("jet", name, 0, 0) for name in "xyz")),
         "r2": DRIVE.carried(DRIVE.generation("reference_wheel/flank"), "hob"),
     },

@@ -53,7 +53,7 @@ EDGE = scope(
     "spherical.edge",
     "",
     signs=["s"],
-    described={
+    described=lambda: {
         "edge": CONVEX.edge("pinion"),
         "convex": CONVEX.carried(CONVEX.sweep("pinion"), "edge"),
         "concave": CONCAVE.carried(CONCAVE.sweep("wheel"), "edge"),
@@ -76,7 +76,7 @@ V_rack = omega*d(shifted, phi)
 V_gear = V_rack - V
 N_g = turn@N
 """,
-    described={
+    described=lambda: {
         "shifted": CONVEX.carried(CONVEX.generation("pinion")[1:], ("vec", "Xc", "Yc", "Zc")),
         "turn": CONVEX.matrix(CONVEX.generation("pinion")[:1]),
         "R_g": CONVEX.carried(CONVEX.generation("pinion"), ("vec", "Xc", "Yc", "Zc")),

@@ -86,7 +86,7 @@ omega = vec(o1, o2, o3)
 f = dot(n_swung, vec(v1, v2, v3) + cross(omega, swung))
 """,
     signs=["s"],
-    described={
+    described=lambda: {
         "secant": BY_NORMAL.name("secant_pinion"),
         "edge": BY_NORMAL.edge("pinion"),
         "n_swung": BY_NORMAL.normal("pinion"),
@@ -102,7 +102,7 @@ e1 = vec(1, 0, 0)
 wider = vec(c1, c2, 0) - change*radial + widened
 """,
     signs=["s"],
-    described={
+    described=lambda: {
         "cone": STRAIGHT.carried(STRAIGHT.sweep("pinion"), STRAIGHT.edge("pinion")),
         "n_cone": STRAIGHT.turned(STRAIGHT.sweep("pinion"), STRAIGHT.normal("pinion")),
         "widened": WIDER.carried(WIDER.sweep("pinion"), WIDER.edge("pinion")),
@@ -121,7 +121,7 @@ at_rounding = vec(v1, v2, v3) + cross(omega, rounding)
 at_centre = vec(v1, v2, v3) + cross(omega, centre)
 """,
     signs=["s"],
-    described={
+    described=lambda: {
         "rounding": ROUNDED.edge(TIP),
         "m_round": ROUNDED.normal(TIP),
         "joined": JOINED.edge(TIP),
@@ -185,7 +185,7 @@ axis_pinion = T(lay_pinion)@k
 reflect = mat([1, 0, 0], [0, -1, 0], [0, 0, 1])
 """,
     jets={"ex": ("u",), "ez": ("u",), "nx": ("u",), "nz": ("u",)},
-    described={
+    described=lambda: {
         "on_head": ("vec", ("+", "rp", ("jet", "ex", 0)), 0, ("jet", "ez", 0)),
         "normal_on_head": ("vec", ("jet", "nx", 0), 0, ("jet", "nz", 0)),
     }
@@ -232,7 +232,7 @@ arm_pinion = rp*e1 + reference_pinion
 """,
     jets={"ex": ("u",), "ez": ("u",)},
     signs=["s"],
-    described={
+    described=lambda: {
         "on_blade": ("vec", ("jet", "ex", 0), 0, ("jet", "ez", 0)),
         "on_head": ("vec", ("+", "rp", ("jet", "ex", 0)), 0, ("jet", "ez", 0)),
     }
@@ -298,7 +298,7 @@ flip = mat([1, 0, 0], [0, -1, 0], [0, 0, -1])
 k = vec(0, 0, 1)
 r = vec(x, y, z)
 """,
-    described={
+    described=lambda: {
         "hypoid": MESH.carried(MESH.motion("pinion"), "r"),
         "bevel": INTERSECTING.carried(INTERSECTING.motion("pinion"), "r"),
         "pinion_axis": MESH.turned(MESH.motion("pinion")[:-1], "k"),

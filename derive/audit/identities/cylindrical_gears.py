@@ -103,7 +103,7 @@ MODIFIED = scope(
     ROLLED,
     jets={"E": ("l", "Z"), "delta": ("Z",), "eps": ("Z",)},
     signs=["s"],
-    described={"delta_here": ("jet", "delta", 0), "eps_here": ("jet", "eps", 0)}
+    described=lambda: {"delta_here": ("jet", "delta", 0), "eps_here": ("jet", "eps", 0)}
     | gear(
         PLUNGE | FEED,
         {"E_here": ("jet", "E", 0, 0), "E_l": ("jet", "E", 1, 0), "E_Z": ("jet", "E", 0, 1)},
@@ -116,7 +116,7 @@ OWN_LEAD = scope(
     ROLLED,
     jets={"E": ("l", "Z")},
     signs=["s"],
-    described=gear(
+    described=lambda: gear(
         QUADRATIC | SLOPE, {"E_here": ("jet", "E", 0, 0), "E_l": ("jet", "E", 1, 0), "E_Z": ("jet", "E", 0, 1)}
     ),
 )
@@ -138,7 +138,7 @@ rho = r*sin_t + X/sin_t
 tangent = mat([cos_t, s*sin_t, 0], [-s*sin_t, cos_t, 0], [0, 0, 1])
 """,
     signs=["s"],
-    described=gear(UNMODIFIED)
+    described=lambda: gear(UNMODIFIED)
     | {
         "r_b": DRIVE.size("pinion_base_radius_mm"),
         "sine_of_base_helix": DRIVE.arc_of_size("pinion_base_helix_angle_deg")[0],
@@ -171,7 +171,7 @@ linear = s*(psi - sin(a)/cos(a)) + Z/p
 w = S/(2*cos(lam)) + p*(ap - sin(ap)/cos(ap))
 """,
     extends=INVOLUTE,
-    described={"worm": ZI.edge("pinion")},
+    described=lambda: {"worm": ZI.edge("pinion")},
 )
 
 PAIR = Described(
@@ -186,7 +186,7 @@ PROFILE = scope(
     ROLLED,
     jets={"E": ("l",)},
     signs=["s"],
-    described=gear(UNMODIFIED, {"E_here": ("jet", "E", 0), "E_l": ("jet", "E", 1), "E_Z": 0})
+    described=lambda: gear(UNMODIFIED, {"E_here": ("jet", "E", 0), "E_l": ("jet", "E", 1), "E_Z": 0})
     | {
         "r1": PARALLEL.size("pinion_reference_radius_mm"),
         "r2": PARALLEL.size("wheel_reference_radius_mm"),
@@ -203,14 +203,14 @@ ratio = -s*cos(alpha)*cos(beta)/sin(alpha)
 cos_b = sqrt(1 - (sin(beta)*cos(alpha))**2)
 """,
     signs=["s"],
-    described=gear(QUADRATIC | {"C_Hbeta_pinion": "0"}),
+    described=lambda: gear(QUADRATIC | {"C_Hbeta_pinion": "0"}),
 )
 
 SLOPED = scope(
     "cylindrical_gears.sloped",
     "E_here = c*l + e\nE_l = c\n" + ROLLED,
     signs=["s"],
-    described=gear({"C_beta_pinion": "0"} | SLOPE, {"E_Z": 0}),
+    described=lambda: gear({"C_beta_pinion": "0"} | SLOPE, {"E_Z": 0}),
 )
 
 #: The other flank of the other hand; the edge farther on, plunged; the edge fed instead; a spur gear's edge.
@@ -225,7 +225,7 @@ eps_here = delta*sin(alpha)/cos(alpha)/cos(beta)
 reflect = mat([1, 0, 0], [0, -1, 0], [0, 0, 1])
 """,
     signs=["s"],
-    described={
+    described=lambda: {
         **dict.fromkeys(PROFILE_LETTERS.values(), 0),
         "rack": gear(UNMODIFIED)["rack"],
         "mirrored": gear(UNMODIFIED, letters=OTHER)["rack"],
@@ -249,7 +249,7 @@ A = r1 + r2 + x*m
 length = cos(alpha)*(r1*cos(beta1)*tan_1 + r2*cos(beta2)*tan_2 + x*m*sin(alpha)/cos(alpha))
 """,
     signs=["s"],
-    described={
+    described=lambda: {
         **dict.fromkeys(("E_l", "E_Z"), 0),
         "outward_1": Described(PAIR.drive, {**UNMODIFIED, **PROFILE_LETTERS, **PAIR.letters}).normal("pinion"),
         "outward_2": Described(

@@ -64,7 +64,7 @@ section = cross(d(P, t), vec(-Py, Px, p))
 height = ((p*n.z/m - n.y*cos(Sigma)*(r.x - A) + n.z*sin(Sigma)*(r.x - A))/n.x + cos(Sigma)*r.y)/sin(Sigma)
 """,
     jets={"Px": ("t",), "Py": ("t",), "Pz": ("t",)},
-    described={
+    described=lambda: {
         "P": PROFILE,
         "hob": DRIVE.carried(DRIVE.sweep("wheel"), "P"),
         "turn": DRIVE.matrix(CUTTING[-1:]),
@@ -80,7 +80,7 @@ k = vec(0, 0, 1)
 n = mounted@cross(d(flank, t), d(flank, psi))
 """,
     jets={"Px": ("t",), "Py": ("t",), "Pz": ("t",)},
-    described={
+    described=lambda: {
         "P": PROFILE,
         "flank": MESHED.carried(MESHED.sweep("pinion"), "P"),
         "mounted": MESHED.matrix(MESHED.motion("pinion")),

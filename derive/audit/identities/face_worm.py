@@ -48,7 +48,7 @@ seat = vec(L, E_m, 0)
 f = dot(turned@n, cross(vec(1, 0, 0), at - seat) - m*cross(vec(0, 0, 1), at))
 """,
     jets={"x": ("u", "theta"), "y": ("u", "theta"), "z": ("u", "theta")},
-    described={
+    described=lambda: {
         "at": DRIVE.carried(HOBBING[1:], "hob"),
         "turned": DRIVE.matrix(HOBBING[1:]),
         "wheel": DRIVE.carried(HOBBING, "hob"),
@@ -63,7 +63,7 @@ TOOL = scope(
     "face_worm.tool",
     "",
     signs=["side"],
-    described={
+    described=lambda: {
         "cone": DRIVE.carried(DRIVE.sweep("wheel"), DRIVE.edge("wheel")),
         "n_cone": DRIVE.turned(DRIVE.sweep("wheel"), DRIVE.normal("wheel")),
         "torus": DRIVE.carried(DRIVE.sweep("wheel/fillet"), DRIVE.edge("wheel/fillet")),
@@ -92,7 +92,7 @@ JOINED = scope(
     "face_worm.joined",
     "",
     extends=TOOL,
-    described=_joined("convex", "1", "pi/2 + alpha_g", "(rho_f*(1 + sin(alpha_g)) - h_d)/cos(alpha_g)")
+    described=lambda: _joined("convex", "1", "pi/2 + alpha_g", "(rho_f*(1 + sin(alpha_g)) - h_d)/cos(alpha_g)")
     | _joined("concave", "-1", "pi/2 - alpha_g", "(rho_f*(1 - sin(alpha_g)) - h_d)/cos(alpha_g)"),
 )
 

@@ -78,7 +78,7 @@ in_section = Rx(-lam)@P
 n = outward
 """,
     signs=["s"],
-    described={
+    described=lambda: {
         "P": ZN.edge("pinion"),
         "outward": ZN.normal("pinion"),
         "swept": ZN.carried(ZN.sweep("pinion"), "P"),
@@ -90,14 +90,14 @@ PITCH_POINT = scope(
     "helicoids.pitch-point",
     "t = S/(2*sin(alpha))",
     signs=["s"],
-    described={"P": tool("zn", {}).edge("pinion")},
+    described=lambda: {"P": tool("zn", {}).edge("pinion")},
 )
 
 AXIAL = scope(
     "helicoids.axial-blade",
     "n = outward",
     signs=["s"],
-    described={
+    described=lambda: {
         "P": ZA.edge("pinion"),
         "outward": ZA.normal("pinion"),
         "swept": ZA.carried(ZA.sweep("pinion"), "P"),
@@ -108,7 +108,7 @@ INVOLUTE = scope(
     "helicoids.involute",
     "n = outward",
     signs=["s"],
-    described={
+    described=lambda: {
         "rho": ZI.name("t_worm"),
         "P": ZI.edge("pinion"),
         "outward": ZI.normal("pinion"),
@@ -124,7 +124,7 @@ k = vec(0, 0, 1)
 p = r*tan(lam)
 """,
     signs=["s"],
-    described={
+    described=lambda: {
         "P": ZK.carried(CONE, ZK.edge("pinion")),
         "n": ZK.turned(CONE, ZK.edge_normal("pinion")),
     },
@@ -136,7 +136,7 @@ ARC = scope(
 k = vec(0, 0, 1)
 """,
     signs=["s"],
-    described={
+    described=lambda: {
         "P": ZC.carried(DISC, ZC.edge("pinion")),
         "n": ZC.turned(DISC, ZC.edge_normal("pinion")),
     },
@@ -150,7 +150,7 @@ xi = 0
 u = 0
 """,
     signs=["s"],
-    described={
+    described=lambda: {
         "arc": ZC.carried(DISC, ZC.edge("pinion")),
         "cone": CONE_OF_ZK.carried(CONE, CONE_OF_ZK.edge("pinion")),
         "arc_normal": ZC.turned(DISC, ZC.edge_normal("pinion")),
@@ -160,7 +160,10 @@ u = 0
 
 #: The ground profile at θ = 0.
 MIDDLE = scope(
-    "helicoids.grinding-wheel-middle", "theta = 0", signs=["s"], described={"P": ZK.carried(CONE, ZK.edge("pinion"))}
+    "helicoids.grinding-wheel-middle",
+    "theta = 0",
+    signs=["s"],
+    described=lambda: {"P": ZK.carried(CONE, ZK.edge("pinion"))},
 )
 
 ROUNDING = scope(

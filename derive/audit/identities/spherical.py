@@ -65,7 +65,7 @@ rho_convex = R + edge_convex.x
 rho_concave = R - edge_concave.x
 """,
     signs=["s"],
-    described=_described("convex") | _described("concave"),
+    described=lambda: _described("convex") | _described("concave"),
 )
 
 

@@ -100,7 +100,7 @@ R2_lam = d(R2, lam)
 R2_phi1 = d(R2, (phi1, 1), (phi2, I))
 """,
     jets={"xi": ("u",), "eta": ("u",), "zeta": ("u",)},
-    described={
+    described=lambda: {
         "P": ("vec", ("jet", "xi", 0), ("jet", "eta", 0), ("jet", "zeta", 0)),
         "R1": DRIVE.carried(DRIVE.sweep("pinion"), "P"),
         "r1": DRIVE.carried(DRIVE.motion("pinion"), "R1"),
@@ -176,7 +176,7 @@ at_reference = d(on_reference, lam)
 inclined = Rz(lam)@vec(0, cos(alpha), sin(alpha))
 """,
     extends=AXES,
-    described={
+    described=lambda: {
         "on_pitch": DRIVE.carried(DRIVE.sweep("pinion"), ("vec", "R1j", 0, 0)),
         "on_reference": DRIVE.carried(DRIVE.sweep("pinion"), ("vec", "r_ref", 0, 0)),
     },
@@ -201,7 +201,7 @@ D = omega2 - omega1 + tau*k1
 W = cross(omega2, -seat) + tau*p*k1
 """,
     extends=WORM,
-    described=_mounted(CROSSED),
+    described=lambda: _mounted(CROSSED),
 )
 
 RIGHT_ANGLE = scope("rack-and-pinion.right-angle", "shaft = pi/2", extends=ANY_SHAFT_ANGLE)

@@ -101,7 +101,12 @@ GROOVE = Described(
             "r_hob": "r1"}
 )  # fmt: skip
 GENERATION = CUTTING.generation("wheel")
-HOB_SURFACE = CUTTING.carried(CUTTING.sweep("wheel"), CUTTING.edge("wheel"))
+
+
+def hob_surface():
+    """The hob's flank in its own frame."""
+    return CUTTING.carried(CUTTING.sweep("wheel"), CUTTING.edge("wheel"))
+
 
 BLADE = scope(
     "recess-action.hob",
@@ -111,26 +116,29 @@ R1_th = d(R1, th1)
 N1 = cross(R1_l, R1_th)
 """,
     signs=["s"],
-    described={"R1": HOB_SURFACE, "worm": WORM.carried(WORM.sweep("pinion"), WORM.edge("pinion"))},
+    described=lambda: {"R1": hob_surface(), "worm": WORM.carried(WORM.sweep("pinion"), WORM.edge("pinion"))},
 )
 
 WIDTH = scope(
     "recess-action.width",
     "",
-    described={
+    described=lambda: {
         "rt": GROOVE.name("r_t_hob"),
         "width": DIMENSIONS.size("groove_width_mm"),
     },
 )
 
-#: The wheel's frame of the paper is the description's, turned half about x.
-CUT_DESCRIBED = {
-    "turn": HALF_TURN,
-    "machine": CUTTING.matrix(GENERATION),
-    "locus": CUTTING.carried(GENERATION, "hob"),
-    "seen": CUTTING.carried(GENERATION, ("vec", 0, 0, 0)),
-    "turned": CUTTING.turned(GENERATION[-1:], "hob"),
-}
+
+def cutting():
+    """The cutting of the wheel; the wheel's frame of the paper is the description's, turned half about x."""
+    return {
+        "turn": HALF_TURN,
+        "machine": CUTTING.matrix(GENERATION),
+        "locus": CUTTING.carried(GENERATION, "hob"),
+        "seen": CUTTING.carried(GENERATION, ("vec", 0, 0, 0)),
+        "turned": CUTTING.turned(GENERATION[-1:], "hob"),
+    }
+
 
 CUT = scope(
     "recess-action.cut",
@@ -149,7 +157,7 @@ omega2 = m21*w1*(T(L21)@vec(0, 0, 1))
 O1O2 = -(T(machine)@seen)
 V12 = w1*(T(L21)@d(R2, (phi1, 1), (phi2, m21)))
 """,
-    described={"hob": ("vec", "X1", "Y1", "Z1"), **CUT_DESCRIBED},
+    described=lambda: {"hob": ("vec", "X1", "Y1", "Z1"), **cutting()},
 )
 
 ENVELOPE = scope(
@@ -164,7 +172,7 @@ O1O2 = -(T(machine)@seen)
 V12 = cross(omega1 - omega2, hob) - cross(O1O2, omega2)
 """,
     signs=["s"],
-    described={"hob": HOB_SURFACE, **CUT_DESCRIBED},
+    described=lambda: {"hob": hob_surface(), **cutting()},
 )
 
 #: What a design's table of misalignments holds, but for the shift along the wheel's axis, which the paper has not.
@@ -182,7 +190,7 @@ n_w2 = L_w2@vec(nx2, ny2, nz2)
 e = vec(ex, ey, ez)
 errors = vec(error_1, -error_2, -error_3)
 """,
-    described={
+    described=lambda: {
         "turn": HALF_TURN,
         "point": ("vec", "X2", ("-", "Y2"), ("-", "Z2")),
         "L_w3": MESHING.matrix(MESHING.motion("pinion")),
@@ -203,7 +211,7 @@ gamma1 = pi - Sigma_gen
 pitch_1 = 2*pi*p_hob*cos(lam1)/T1
 pitch_3 = 2*pi*p_worm*cos(lam3)/T3
 """,
-    described={
+    described=lambda: {
         "r3": DIMENSIONS.rule("r_worm"),
         "C3_rule": DIMENSIONS.rule("A"),
         "C1_rule": DIMENSIONS.rule("A_gen"),
@@ -228,14 +236,14 @@ omega2 = T1/T2*(T(turn@machine)@vec(0, 0, 1))
 V = cross(vec(0, 0, 1) - omega2, vec(r1, 0, 0)) - cross(O1O2, omega2)
 across = Rx(lam1)@vec(0, 0, 1)
 """,
-    described={
+    described=lambda: {
         "r3": DIMENSIONS.rule("r_worm"),
         "C3_rule": DIMENSIONS.rule("A"),
         "C1_rule": DIMENSIONS.rule("A_gen"),
         "Sigma_gen": DIMENSIONS.rule("Sigma_gen"),
         "turn": HALF_TURN,
-        "machine": CUT_DESCRIBED["machine"],
-        "seen": CUT_DESCRIBED["seen"],
+        "machine": cutting()["machine"],
+        "seen": cutting()["seen"],
     },
 )
 
@@ -249,7 +257,7 @@ def _throat(shift: str):
 THROAT = scope(
     "recess-action.throat",
     "",
-    described={"semi": _throat("m_n"), "full": _throat("2*m_n"), "standard": _throat("0")},
+    described=lambda: {"semi": _throat("m_n"), "full": _throat("2*m_n"), "standard": _throat("0")},
 )
 
 #: Eq (15) at one place of the locus: φ1 = 0 and Y1 = 0.
@@ -264,7 +272,7 @@ machine_seen = turn@machine
 omega2 = m21*w1*(T(machine_seen)@vec(0, 0, 1))
 V_somewhere = cross(w1*vec(0, 0, 1) - omega2, hob) + cross(T(machine)@seen, omega2)
 """,
-    described={"machine": CUT_DESCRIBED["machine"], "seen": CUT_DESCRIBED["seen"]},
+    described=lambda: {"machine": cutting()["machine"], "seen": cutting()["seen"]},
     extends=MESH,
 )
 

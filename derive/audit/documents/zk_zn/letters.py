@@ -92,7 +92,7 @@ U1 = u_solved + rc/cos(alpha1)
 b_at_centre = s*half_width.z + rc*tan(alpha1)
 """,
     signs=["s"],
-    described={
+    described=lambda: {
         "R1": WORM.carried(SCREW, WORM.carried(DISC, WORM.edge("pinion"))),
         "n1": WORM.turned(SCREW, WORM.turned(DISC, WORM.edge_normal("pinion"))),
         "u_solved": WORM.solved("pinion"),
@@ -118,7 +118,7 @@ b22 = cos(phi2)*cos(gamma)*cos(phih) - sin(phi2)*sin(phih)
 R2_across = turn_y@locus_across
 L2h_across = turn_y@machine_across
 """,
-    described={
+    described=lambda: {
         "turn": HALF_TURN,
         "locus": HOB.carried(HOB.generation("wheel"), ("vec", "Xh", "Yh", "Zh")),
         "machine": HOB.matrix(HOB.generation("wheel")),
@@ -144,16 +144,18 @@ HOB_SURFACE = scope(
     "zk-zn.hob",
     "",
     signs=["s"],
-    described={"R_h": HOB.carried(HOB.sweep("wheel"), HOB.edge("wheel"))},
+    described=lambda: {"R_h": HOB.carried(HOB.sweep("wheel"), HOB.edge("wheel"))},
 )
 
-BLADE = scope("zk-zn.blade", "", described={"rt": GROOVE.name("r_t_hob")})
+BLADE = scope("zk-zn.blade", "", described=lambda: {"rt": GROOVE.name("r_t_hob")})
 
 #: The hob's distance in the machine: A2 as the rules complete a design.
 DISTANCE = scope(
     "zk-zn.distance",
     "r2 = A - r1",
-    described={"A": SIZE.rule("A"), "A2": SIZE.rule("A_gen"), "pitch_radius": SIZE.size("wheel_pitch_radius_mm")},
+    described=lambda: {
+        "A": SIZE.rule("A"), "A2": SIZE.rule("A_gen"), "pitch_radius": SIZE.size("wheel_pitch_radius_mm"),
+    },
 )
 
 MESH = Described(
@@ -165,11 +167,11 @@ MESH = Described(
 ASSEMBLY = scope(
     "zk-zn.assembly",
     "axis = mounted@(turn@vec(0, 0, 1))",
-    described={"turn": HALF_TURN, "mounted": MESH.matrix(MESH.motion("wheel"))},
+    described=lambda: {"turn": HALF_TURN, "mounted": MESH.matrix(MESH.motion("wheel"))},
 )
 
 SPUR = scope(
-    "zk-zn.spur", "gamma = pi/3\nlam = pi/6", described={"helix": TABLE.size("wheel_helix_angle_deg")}
+    "zk-zn.spur", "gamma = pi/3\nlam = pi/6", described=lambda: {"helix": TABLE.size("wheel_helix_angle_deg")}
 )
 
 #: Any two normals; the equation of meshing of disc and worm; the velocity of a hob point seen from the wheel.
@@ -183,7 +185,7 @@ f_disc = dot(n1, d(R1, phi1))
 V_hob = T(machine)@d(locus, (phih, 1), (phi2, m2h))
 """,
     extends=GRINDING,
-    described={name: HOBBING.definitions[name] for name in ("locus", "machine")},
+    described=lambda: {name: HOBBING.definitions[name] for name in ("locus", "machine")},
 )
 
 LOST = "the signs are lost in the extraction"
