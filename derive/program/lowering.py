@@ -57,7 +57,7 @@ class Lowering:
     def _said(self, e: sp.Expr) -> str:
         """A hash of an expression as it is written, where definitions have their names."""
         if e not in self._hashes:
-            parts = sorted(map(self._said, e.args)) if e.is_Add or e.is_Mul else [*map(self._said, e.args)]
+            parts = sorted(map(self._said, e.args)) if isinstance(e, sp.Add | sp.Mul) else [*map(self._said, e.args)]
             text = " ".join([e.func.__name__, *parts]) if parts else str(e)
             self._hashes[e] = hashlib.sha256(text.encode()).hexdigest()
         return self._hashes[e]

@@ -25,7 +25,9 @@ class Names:
 
     def __init__(self, tape: Tape, defined: Mapping[int, str]) -> None:
         self.tape = tape
-        first = {name: i for i, name in reversed(defined.items())}
+        first: dict[str, int] = {}
+        for i, name in defined.items():
+            first.setdefault(name, i)
         self._spoken = {i: re.sub(r"\W", "_", name) for name, i in first.items() if len(name) <= LONGEST}
         self._said = {i: f"definition {name}" for name, i in first.items()}
         self._of: dict[str, int] = {}  # what is said of nodes → the first of which it is
