@@ -16,6 +16,7 @@ and on its page, and nothing is cited from it. The C is written all the same, un
 from __future__ import annotations
 
 import argparse
+import json
 import multiprocessing
 import sys
 import time
@@ -35,6 +36,8 @@ from derive.pages import EVERY, Page, of_tree, pages
 from derive.refusals import Refused, told
 from meshwright.base.worker import submit
 
+#: What is known of every drive before it is derived.
+FAMILIES = "families.json"
 #: Exit status of what is open where ``--strict`` is given, and of what is refused.
 OPEN, REFUSED = 1, 2
 
@@ -105,8 +108,18 @@ def _some(folder: Path, words: Sequence[str]) -> list[Compiled]:
         if word.endswith(".py"):
             raise Refused(f"{word}: what a file defines is written to a folder of its own: add --into FOLDER")
     made = [compiler.compile_drive(page, standings, log, submit=submit) for page in pages(words)]
-    generated.add(folder, {path: text for compiled in made for path, text in compiled.files.items()})
+    files = {path: text for compiled in made for path, text in compiled.files.items()}
+    table = folder / FAMILIES
+    if table.is_file() and not all(_is_in(table, compiled) for compiled in made):
+        files[FAMILIES] = families.text(_families()[0])
+    generated.add(folder, files)
     return made
+
+
+def _is_in(table: Path, compiled: Compiled) -> bool:
+    """Whether the table of families says of a drive what was just derived."""
+    described = json.loads(compiled.files[f"c/{compiled.name}.json"])
+    return families.agrees(json.loads(table.read_text(encoding="utf-8")), described, compiled.shared)
 
 
 def _everything(folder: Path, every: bool) -> list[Compiled]:
@@ -119,7 +132,7 @@ def _everything(folder: Path, every: bool) -> list[Compiled]:
     table, names = defined()
     made = _compiled(of_tree(names if every else packaged(table)), of_ledger(ledger))
     files = {path: text for compiled in made for path, text in compiled.files.items()}
-    files |= {"families.json": families.text(table), "README.md": products.readme()}
+    files |= {FAMILIES: families.text(table), "README.md": products.readme()}
     with log("emit", "audit record"):
         files |= record.files(ledger, files)
     generated.replace(folder, files)

@@ -247,12 +247,11 @@ def test_an_edit_of_the_description_makes_statements_false(edit, monkeypatch):
 
     with monkeypatch.context() as patch:
         patch.setattr(described, "_description", edited)
-        chapter = read_again(module, patch)
-    claims = {claim.key: claim for claim in chapter.CHAPTER.claims}
-    for key in keys:
-        for label, texts in statements_held_true(claims[key]):
-            found = {decide(claims[key].scope.statement(label, text)).outcome for text in texts}
-            assert Outcome.REFUTED in found, (key, label)
+        claims = {claim.key: claim for claim in read_again(module, patch).CHAPTER.claims}
+        for key in keys:
+            for label, texts in statements_held_true(claims[key]):
+                found = {decide(claims[key].scope.statement(label, text)).outcome for text in texts}
+                assert Outcome.REFUTED in found, (key, label)
 
 
 def statements():
