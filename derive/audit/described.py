@@ -16,7 +16,7 @@ from typing import Any
 
 from derive.audit.plain_text import text
 from derive.prove.collect import COLLECTED, as_tree, collected, opposite, replaced
-from derive.prove.tree import Tree, parse_formula
+from derive.prove.tree import NotationError, Tree, parse_formula
 from meshwright.base.expression import Evaluator
 
 
@@ -133,8 +133,11 @@ class Described:
         return reader({name: value for name, value in named.items() if name not in self.letters}, self.letters)
 
     def tree(self, data: Any) -> Tree:
-        """An expression of the description."""
-        return as_tree(self._reader(data))
+        """An expression of the description; NotationError for one that the closed grammar does not have."""
+        try:
+            return as_tree(self._reader(data))
+        except KeyError as error:
+            raise NotationError(f"{error.args[0]} is no operation of the closed grammar") from error
 
     def _of(self, part: list, tree: Tree) -> Tree:
         """The tree, with where it was read."""
