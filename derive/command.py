@@ -20,14 +20,14 @@ import json
 import multiprocessing
 import sys
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
 from derive import compiler, drive_folder, generated, products
-from derive.audit.standing import UNKNOWN, Standing, of_ledger, standings
+from derive.audit.standing import Standings, of_ledger, standings
 from derive.compiler import Compiled
 from derive.emit import families
 from derive.language.validate_outlines import validate_outlines
@@ -147,16 +147,16 @@ def _families() -> tuple[dict, list[str]]:
         return families.table(listed), [drive.name for drive in listed]
 
 
-def _compiled(listed: Sequence[Page], known: Mapping[str, Standing]) -> list[Compiled]:
+def _compiled(listed: Sequence[Page], known: Standings) -> list[Compiled]:
     """Many pages, each compiled by whichever process is free; those that take longest come last."""
     with ProcessPoolExecutor(mp_context=multiprocessing.get_context("fork")) as processes:
         made = processes.map(partial(_compile, known), [page.name for page in reversed(listed)])
         return [*made][::-1]
 
 
-def _compile(known: Mapping[str, Standing], name: str) -> Compiled:
+def _compile(known: Standings, name: str) -> Compiled:
     (page,) = of_tree([name])
-    return compiler.compile_drive(page, lambda names: {each: known.get(each, UNKNOWN) for each in names}, log)
+    return compiler.compile_drive(page, lambda names: known, log)
 
 
 def _show(arguments: Sequence[str]) -> int:
