@@ -133,7 +133,7 @@ def _everything(folder: Path, every: bool) -> list[Compiled]:
     made = _compiled(of_tree(names if every else packaged(table)), of_ledger(ledger))
     files = {path: text for compiled in made for path, text in compiled.files.items()}
     files |= {FAMILIES: families.text(table), "README.md": products.readme()}
-    with log("emit", "audit record"):
+    with log("emit", "audit record"), told("emit", "the audit record"):
         files |= record.files(ledger, files)
     generated.replace(folder, files)
     return made
