@@ -165,7 +165,7 @@ def _flat(point):
     for key, value in point.items():
         if isinstance(value, dict):
             flat |= {f"{key}.{inner}": v for inner, v in _flat(value).items()}
-        elif key in ("contour", "contact_line_mm"):
+        elif key in ("contour", "contact_line", "contact_line_mm"):
             continue
         elif key == "other_contacts":
             flat[key] = len(value)
