@@ -98,8 +98,8 @@ def test_a_worm_and_a_wheel_cut_by_its_equal_touch_along_a_curve_from_face_to_fa
     (point,) = drive.tca([0.0]).to_points()
     line = point["contact_line"]
     assert point["status"] == "line_contact" and point["transmission_error_arcsec"] == pytest.approx(0.0, abs=1e-8)
-    order = sorted((end["point_mm"], curvature) for end, curvature in
-                   zip(line["ends"], (line["curvature_per_mm"][0], line["curvature_per_mm"][-1]), strict=True))  # fmt: skip
+    at_ends = line["curvature_per_mm"][0], line["curvature_per_mm"][-1]
+    order = sorted(zip((end["point_mm"] for end in line["ends"]), at_ends, strict=True))
     assert order[0][0] == pytest.approx([18.6127060, 12.0, 6.2397587], abs=1e-7)
     assert order[1][0] == pytest.approx([19.2030248, -12.0, 1.9053764], abs=1e-7)
     assert [curvature for _, curvature in order] == pytest.approx([0.0462716, 0.0303573], abs=1e-7)

@@ -150,7 +150,7 @@ def test_a_pair_on_edges_has_a_window_an_error_and_a_backlash():
     """Inclined: s TE = (b/2) Δv sin α_w / r_b2 to first order on either flank, by so much less backlash."""
     errors = ({}, {"vertical_deg": 0.005})
     straight, inclined = (c14(e, center_distance_mm=91.7).contact_ratio() for e in errors)
-    assert inclined.status == "edge_contact" and inclined.contact_ratio == pytest.approx(1.42325, abs=1e-4)
+    assert inclined.status == "edge_contact" and inclined.contact_ratio == pytest.approx(1.42325, abs=5e-4)
     lead = 7.0 * math.radians(0.005) * math.sin(math.acos(45.0 * 2 * math.cos(math.radians(20.0)) / 91.7)) / 50.744
     assert straight.backlash - inclined.backlash == pytest.approx(2.0 * lead, rel=1e-2)
     assert inclined.transmission_error.pair_peak_to_peak < 0.01 * lead

@@ -9,7 +9,7 @@ from meshwright.cycle.pairs import Mesh
 from meshwright.cycle.transmission import ROUND_OFF, envelopes
 
 #: Samples of one pitch, and where each takes a search for first contact.
-SAMPLES, SEARCHED = 64, 24
+SAMPLES, SEARCHED = 64, 8
 
 
 def backlash(drive):

@@ -62,7 +62,6 @@ def _points(drive, result, rows, kinds, along, found):
     single = ~tangent & ~newton & np.array([kind not in (None, "line") for kind in kinds], dtype=bool)
     status = ["no_contact" if kind is None else STATUSES[kind] for kind in kinds]
     messages = [status_text(word) for word in status]
-    messages = [f"{text}: {found.words(i)}" if single[i] else text for i, text in enumerate(messages)]
     turned = drive.ratio * angles + error
     stand = placed(drive, own, mirror.sign * turned).matrices
     _, wheel = (body["name"] for body in drive.design.description["bodies"])
@@ -74,6 +73,10 @@ def _points(drive, result, rows, kinds, along, found):
         back = inverse(stand[name])
         return mirror.flip * (np.einsum("nij,nj->ni", back[:, :3, :3], mirror.flip * found.points) + back[:, :3, 3])
 
+    body_points = {name: only(values, in_body(name)) for name, values in points.body_points.items()}
+    messages = [text if not one else f"{text}: {found.words(i)}, at {_height(found, body_points, i)}"
+                for i, (text, one) in enumerate(zip(messages, single, strict=True))]  # fmt: skip
+
     return replace(
         points,
         angles=angles,
@@ -83,9 +86,15 @@ def _points(drive, result, rows, kinds, along, found):
         wheel_angles=np.where(tangent, points.wheel_angles, turned),
         points=only(points.points, found.points),
         normals=only(points.normals, found.normals),
-        body_points={name: only(values, in_body(name)) for name, values in points.body_points.items()},
+        body_points=body_points,
         lever_arms=points.lever_arms | {wheel: only(points.lever_arms[wheel], found.levers)},
         solutions=np.where(newton[:, None], result.solutions[rows], points.solutions),
         outside_the_tips=np.array([kind is None for kind in kinds], dtype=bool) & ~tangent,
         lines=tuple(lines),
     )
+
+
+def _height(found, body_points, i):
+    """Where along its own axis the member whose limit holds place i touches, which says at which end of the teeth."""
+    member = found.holders[i][0]
+    return f"z = {body_points[member][i, 2]:.4g} mm of the {member}"

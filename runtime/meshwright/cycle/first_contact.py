@@ -71,19 +71,21 @@ class FirstContacts:
     """First contacts at N pinion ``angles`` (rad), with the design's hand; NaN and None where there is none.
 
     ``kinds``: "tangency", "line", "edge" or "corner"; ``members``: whose limit holds the place, "both" for two edges
-    that cross, None for a tangency and a line; ``limits``: the events. ``errors`` (N,): transmission error, rad.
-    ``points``, ``normals`` (N, 3) (out of the pinion's flank), fixed frame, of a line those in its middle; ``levers``
-    (N,), mm of normal approach per rad of the wheel; ``solutions`` (N, nx), the unknowns of contact there, right hand,
-    which solve its equations at a tangency alone. ``lines``: the :class:`TouchingLine` along which flanks, or an edge
-    and a flank, touch, else None. ``unresolved`` (N,): a place that the search could have missed overlaps by this at
-    most, mm; infinite where flanks meet whose first contact was not found. ``untouched`` (N,) of bool: where no turn
-    of the wheel brings the bounded flanks together. ``reason``: why there is none anywhere, or "".
+    that cross, None for a tangency and a line; ``limits``: the events, and ``holders`` the members whose they are.
+    ``errors`` (N,): transmission error, rad. ``points``, ``normals`` (N, 3) (out of the pinion's flank), fixed frame,
+    of a line those in its middle; ``levers`` (N,), mm of normal approach per rad of the wheel; ``solutions`` (N, nx),
+    the unknowns of contact there, right hand, which solve its equations at a tangency alone. ``lines``: the
+    :class:`TouchingLine` along which flanks, or an edge and a flank, touch, else None. ``unresolved`` (N,): a place
+    that the search could have missed overlaps by this at most, mm; infinite where flanks meet whose first contact was
+    not found. ``untouched`` (N,) of bool: where no turn of the wheel brings the bounded flanks together. ``reason``:
+    why there is none anywhere, or "".
     """
 
     angles: np.ndarray
     kinds: tuple[str | None, ...]
     members: tuple[str | None, ...]
     limits: tuple[tuple[str, ...], ...]
+    holders: tuple[tuple[str, ...], ...]
     errors: np.ndarray
     points: np.ndarray
     normals: np.ndarray
@@ -105,8 +107,10 @@ class FirstContacts:
         """First contact k in words, such as "edge of the wheel (face)"; "" if there is none."""
         if self.kinds[k] in (None, "tangency", "line"):
             return self.kinds[k] or ""
-        whose = "both members" if self.members[k] == "both" else f"the {self.members[k]}"
-        return f"{self.kinds[k]} of {whose} ({', '.join(self.limits[k])})".replace("_", " ")
+        if self.members[k] == "both":
+            pairs = zip(self.limits[k], self.holders[k], strict=True)
+            return " on ".join(f"{limit} of the {member}" for limit, member in pairs).replace("_", " ")
+        return f"{self.kinds[k]} of the {self.members[k]} ({', '.join(self.limits[k])})".replace("_", " ")
 
     def point(self, k, errors):
         """The entry ``first_contact`` of point k of a TCA with transmission errors (N,), rad; None if there is none."""
@@ -177,7 +181,7 @@ def _gathered(drive, angles, found, lines, reason=""):
     mirror, nothing = drive.design.mirror, np.full(3, np.nan)
     bodies = drive.design.description["bodies"]
     named = [_held(bodies, f, line) for f, line in zip(found, lines, strict=True)]
-    kinds, members, limits = zip(*named, strict=True) if named else ((), (), ())
+    kinds, members, limits, holders = zip(*named, strict=True) if named else ((), (), (), ())
     shown = [f if line is None else line.middle for f, line in zip(found, lines, strict=True)]
 
     def column(of, missing=math.nan, at=shown):
@@ -188,6 +192,7 @@ def _gathered(drive, angles, found, lines, reason=""):
         kinds=kinds,
         members=members,
         limits=limits,
+        holders=holders,
         errors=mirror.sign * column(lambda f: f.wheel_turn),
         points=mirror.flip * column(lambda f: np.array(list(f.point)), nothing).reshape(-1, 3),
         normals=mirror.flip * column(lambda f: np.array(list(f.normal)), nothing).reshape(-1, 3),
@@ -201,20 +206,20 @@ def _gathered(drive, angles, found, lines, reason=""):
 
 
 def _held(bodies, found, line=None):
-    """Kind, member and limits of a place, or of a line through it."""
+    """Kind, member, limits and whose they are of a place, or of a line through it."""
     if found is None:
-        return None, None, ()
+        return None, None, (), ()
     if line is not None:
         found = line.middle
     held = [(found.member[k], found.limit[k]) for k in (0, 1) if found.limit[k] >= 0]
-    names = tuple(_event(bodies, *which) for which in held)
+    names, whose = tuple(_event(bodies, *which) for which in held), tuple(bodies[m]["name"] for m, _ in held)
     if not held:
-        return "tangency" if line is None else "line", None, ()
+        return "tangency" if line is None else "line", None, names, whose
     if len(held) == 1:
-        return "edge", bodies[held[0][0]]["name"], names
+        return "edge", whose[0], names, whose
     if held[0][0] == held[1][0]:
-        return "corner", bodies[held[0][0]]["name"], names
-    return "edge", "both", names
+        return "corner", whose[0], names, whose
+    return "edge", "both", names, whose
 
 
 def _event(bodies, member, limit):

@@ -63,6 +63,12 @@ class Mesh:
         """Which envelope of the transmission errors is transmitted: "upper" or "lower"."""
         return "upper" if self.sense > 0 else "lower"
 
+    @property
+    def middle(self):
+        """Angle of the right-hand drive in the middle of the window, or that to which relative errors refer."""
+        middle = 0.5 * self.mirror * (self.window.begin.angle + self.window.end.angle)
+        return middle if math.isfinite(middle) else self.drive.design.reference_angle
+
     @cached_property
     def impossible(self):
         """Flags that points between the ends of the window carry and that mark what bodies cannot make."""

@@ -32,8 +32,8 @@ def backlash_lengths(mesh, backlash):
     distance = centre_distance(mesh.drive)
     if not math.isfinite(distance) or mesh.contact is None:
         return math.nan, math.nan
-    middle = _middle(mesh) if mesh.window.complete else mesh.drive.design.reference_angle
-    return backlash * distance / (1.0 + mesh.drive.ratio), backlash * abs(float(mesh.contact.levers([middle])[0]))
+    lever = abs(float(mesh.contact.levers([mesh.middle])[0]))
+    return backlash * distance / (1.0 + mesh.drive.ratio), backlash * lever
 
 
 def transverse_contact_ratio(mesh):
@@ -43,18 +43,13 @@ def transverse_contact_ratio(mesh):
     window, drive = mesh.window, mesh.drive
     if window.status != "line_contact" or not window.complete or math.isnan(centre_distance(drive)):
         return math.nan
-    limits, middle = [limit.index for limit in limits_of(drive) if limit.reason != "face"], _middle(mesh)
+    limits, middle = [limit.index for limit in limits_of(drive) if limit.reason != "face"], mesh.middle
 
     def depth(angle):
         return _depth(drive, angle, limits)
 
     ends = [_end(depth, middle, sign * drive.pitch() / SAMPLES_PER_PITCH) for sign in (-1.0, 1.0)]
     return (ends[1] - ends[0]) / drive.pitch()
-
-
-def _middle(mesh):
-    """Angle of the right-hand drive in the middle of the window."""
-    return 0.5 * mesh.mirror * (mesh.window.begin.angle + mesh.window.end.angle)
 
 
 def _end(depth, inside, step):

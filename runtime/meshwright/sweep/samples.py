@@ -101,7 +101,18 @@ def solve(drive, keys, values, angles, portable=False):
             found.status[k], found.flags[k] = analysis.status_codes("no_contact")[0], 0
             found.error[k], found.points[k] = np.nan, np.nan
     found.flags[:] |= _bits(drive, flags.ON_EDGE) * _on_an_edge(batch, found, angles, drive_of)
+    _without_tangency(drive, found, angles, drive_of)
     return found
+
+
+def _without_tangency(drive, found, angles, drive_of):
+    """Fill in where and how the bounded flanks touch at points at which lanes found no tangency."""
+    open_ = ~found.solved & (found.status != library().MW_BAD_INPUT)
+    for k in np.flatnonzero(open_.any(axis=1)):
+        result, rows = drive_of(k).tca(angles), open_[k]
+        found.status[k, rows] = [analysis.status_codes(word)[0] for word in result.only(rows).status]
+        found.error[k, rows], found.points[k, rows] = result.error[rows], result.points[rows]
+        found.flags[k, rows] = [_bits(drive, *words) for words in result.only(rows).flags]
 
 
 def _in_lanes(drive):
