@@ -229,7 +229,9 @@ def pair_error_at(pair, angle, point):
     return float(pair.limits(angle, length, point[2])[1])
 
 
-QUICK, ALL = 6, 300
+#: Pairs of the quick test, and of the whole.
+QUICK = 6
+ALL = 300
 
 
 def test_plain_pairs_touch_where_explicit_involutes_do():

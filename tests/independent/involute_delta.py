@@ -12,8 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-#: Points of a look along a border, and over the rectangle each way; times a look is made closer about the best.
-ALONG, OVER, CLOSER = 97, 25, 15
+#: Points of a look along a border, and over the rectangle each way.
+ALONG = 97
+OVER = 25
+
+#: How often a look is made closer about the best place.
+CLOSER = 15
 
 
 def involute(angle):

@@ -8,8 +8,11 @@ from meshwright.contact.placement import placed
 from meshwright.cycle.pairs import Mesh
 from meshwright.cycle.transmission import ROUND_OFF, envelopes
 
-#: Samples of one pitch, and where each takes a search for first contact.
-SAMPLES, SEARCHED = 64, 8
+#: Samples of one pitch.
+SAMPLES = 64
+
+#: The same where each takes a search for first contact of several pairs.
+SEARCHED = 8
 
 
 def backlash(drive):

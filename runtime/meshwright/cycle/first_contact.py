@@ -48,13 +48,20 @@ STATUSES = {"tangency": "converged", "line": "line_contact", "edge": "edge_conta
 #: A place further inside the other flank than this, mm, where flanks touch along a line, is before it.
 OVERLAP = 1e-9
 
-#: Flanks that stand apart by no more than this all along a curve, mm along the normal, touch along it (the last places
-#: of a position that rounding takes included); the share of it left where a curve is level.
-FLAT, LEVEL = 1.001e-9, 0.01
+#: Flanks that stand apart by no more than this all along a curve, mm along the normal, touch along it; the last places
+#: of a position, which rounding takes, included.
+FLAT = 1.001e-9
 
-#: Steps along a curve, in natural sizes: the first two to see whether it is level at all; most of them to either side;
-#: fewer points than this do not show where it is level.
-NEAR, STEP, POINTS, LEAST_LEVEL = 0.05, 0.125, 240, 5
+#: The share of that which is left on the level part of a curve that falls off at its ends.
+LEVEL = 0.01
+
+#: Steps along a curve, in natural sizes: one to either side to see whether it is level at all, and those along it.
+NEAR = 0.05
+STEP = 0.125
+
+#: Most steps to either side, and the fewest points that show where a curve is level.
+POINTS = 240
+LEAST_LEVEL = 5
 
 #: Chords of less than this share of a line say nothing of how it bends.
 SHORT = 1e-4
@@ -288,9 +295,11 @@ def _triangulated(drive, unknowns):
 
 def start_values(drive, angles):
     """Where contact is sought in the middle of the flanks at angles (N,) of the right-hand drive: unknowns (N, nx)."""
-    x, model = np.empty((len(angles), drive.model.nx)), drive.design.model
+    model, state = drive.design.model, drive.design.state.copy()
+    x = np.empty((len(angles), model.nx))
     for row, angle in zip(x, angles, strict=True):
-        library().mw_start_values(model, pointer(drive.state(angle)), pointer(row))
+        model.set_phi(pointer(state), angle)
+        library().mw_start_values(model, pointer(state), pointer(row))
     return x
 
 
@@ -509,7 +518,7 @@ class Search:
 
     def _curvatures(self, angle, places):
         """Relative curvature of the flanks across the line at its places: (M,)."""
-        model = self.drive.model
+        model = self.drive.design.model
         x = np.array([_unknowns(self.drive, place) for place in places])
         observed, angles = np.empty((len(x), model.no)), np.full(len(x), float(angle))
         library().mw_observe(

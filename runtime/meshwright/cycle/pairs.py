@@ -27,7 +27,8 @@ ANGLE_TOLERANCE = 1e-12
 
 
 #: Errors at so many angles show whether they are one, from this share of the window inside its ends on.
-LOOKS, INNER = 9, 1e-6
+LOOKS = 9
+INNER = 1e-6
 
 
 @dataclass(frozen=True)

@@ -13,9 +13,13 @@ from meshwright.cycle.windows import limits_of
 #: Axes whose directions differ by less, rad, are parallel.
 PARALLEL = 1e-12
 
-#: Steps of Newton's method to the point of a line in a section, the last one shorter than a share of a natural size;
-#: steps from the middle of the window, per pitch, to where the section leaves the flanks, to this angle, rad.
-STEPS, DONE, SAMPLES_PER_PITCH, ANGLE_TOLERANCE = 20, 1e-12, 8, 1e-11
+#: Steps of Newton's method to the point of a line in a section, and the length of the last one, in natural sizes.
+STEPS = 20
+LAST_STEP = 1e-12
+
+#: Steps per pitch from the middle of the window to where the section leaves the flanks, found to this angle, rad.
+SAMPLES_PER_PITCH = 8
+ANGLE_TOLERANCE = 1e-11
 
 
 def centre_distance(drive):
@@ -73,7 +77,7 @@ def _depth(drive, angle, limits):
         equations = np.vstack([jacobian, row]) * scale
         step = np.linalg.lstsq(equations, np.append(residual, found.points[0, 2]), rcond=None)[0]
         x -= step * scale
-        if np.abs(step).max() < DONE:
+        if np.abs(step).max() < LAST_STEP:
             break
     observed = np.empty(model.no)
     model.observe(pointer(state), pointer(x), pointer(observed))

@@ -14,9 +14,12 @@ SAMPLES = 256
 
 ANGLE_TOLERANCE = 1e-10
 
-#: Samples of a pair's window, and of one pitch, where each takes a search; the window's ends are left out by this
-#: share.
-PAIR_SAMPLES, PITCH_SAMPLES, INNER = 33, 64, 1e-6
+#: Samples of a pair's window, and of one pitch, where each takes a search.
+PAIR_SAMPLES = 33
+PITCH_SAMPLES = 64
+
+#: The ends of a window are left out by this share of it.
+INNER = 1e-6
 
 
 @dataclass(frozen=True)

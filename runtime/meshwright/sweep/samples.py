@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.errors import DesignError
-from meshwright.base.library import ffi, library, pointer
+from meshwright.base.library import library, pointer
 from meshwright.contact import analysis, flags
 from meshwright.contact.results import OFF_TIP, SOLVED, impossible
 from meshwright.cycle import windows
@@ -227,9 +227,8 @@ def _parameters(drive, keys, values):
         rows[:, k] = numbers * p["factor"]
     possible = designs.allowed(drive.design, dict(zip(keys, values.T, strict=True)))
     if follows:
-        work, info = np.empty(drive.model.np + 1), ffi.new("mw_info *")
         for k in np.flatnonzero(possible):
-            possible[k] = library().mw_complete(drive.model, pointer(rows[k]), pointer(work), info) == 0
+            possible[k] = designs.complete(drive.design.model, drive.design.description, rows[k]) == 0
     rows[~possible] = np.nan
     return rows
 
