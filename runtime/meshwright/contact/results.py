@@ -16,6 +16,9 @@ SOLVED = ("converged",)
 #: Status words of angles at which the bounded flanks touch: at a point, along a line, on an edge or at a corner.
 TOUCHING = ("converged", "line_contact", "edge_contact", "corner_contact")
 
+#: Those at which they touch with more than an edge.
+ON_FLANKS = ("converged", "line_contact")
+
 #: Flag of points beyond the tip of a member.
 OFF_TIP = "off_tip"
 
