@@ -8,7 +8,7 @@ import numpy as np
 
 from meshwright.base.roots import bracketed
 from meshwright.contact.branch import fold_angle
-from meshwright.cycle.first_contact import STATUSES
+from meshwright.cycle.first_contact import STATUSES, Search
 from meshwright.cycle.line_windows import line_ends
 from meshwright.cycle.path import SHORT_OF_FOLD, Path
 
@@ -118,7 +118,8 @@ def _of_lines(drive, limits):
 
 def _status_at(drive, angle, otherwise):
     """Status word of the bounded flanks at an angle of the right-hand drive; ``otherwise`` where that is not known."""
-    (kind,) = drive.first_contact([drive.design.mirror.sign * angle]).kinds
+    search, _ = Search.of(drive)
+    (kind,) = (None,) if search is None else search.first(np.array([_mirror(drive) * angle])).kinds
     return STATUSES.get(kind, otherwise)
 
 
