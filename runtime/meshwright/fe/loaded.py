@@ -255,8 +255,10 @@ class _Solution:
     def windows_after(self) -> dict[int, Window]:
         """By pair what to divide next: where there was pressure, more where it reached a free border."""
         return {
-            place.contact.pairs_later: _next_window(self.closing(place), *of)
-            for place, *of in zip(self.places, self.windows, self.grids, self.pressures, self.leaking, strict=True)
+            place.contact.pairs_later: _next_window(self.closing(place), window, grid, p, leaking)
+            for place, window, grid, p, leaking in zip(
+                self.places, self.windows, self.grids, self.pressures, self.leaking, strict=True
+            )
         }
 
     def settled(self, before: _Solution) -> bool:

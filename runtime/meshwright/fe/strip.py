@@ -179,14 +179,30 @@ class Strip:
     def curvature(self, along: Floats, step: float) -> Floats:
         """Curvature (R,) of the gap across the curve, 1/mm, over a step in mm to either side."""
         stations, offsets = np.broadcast_arrays(along[:, None], step * np.array([-1.0, 0.0, 1.0]))
-        return self.gap(stations, offsets) @ np.array([1.0, -2.0, 1.0]) / step**2
+        bend = self.gap(stations, offsets) @ np.array([1.0, -2.0, 1.0]) / step**2
+        return bend / self._on_flank(along, self._normals(along))[1][:, 1] ** 2
 
     def lengths(self, along: Floats) -> Floats:
         """Length (R,) of the curve on the flank per mm of the first axis."""
+        return np.hypot(1.0, self.curve(along, 1)) * self._on_flank(along, self._normals(along))[1][:, 0]
+
+    def _normals(self, along: Floats) -> Floats:
+        """Normals (R, 3) of the pinion's flank on the curve."""
         feet = self.plane.feet(self.at(along, np.zeros_like(along)))
-        normals = self.plane.footprints(feet)["pinion"].normals
-        tilt = np.einsum("ki,ki->k", self.directions(along)[:, 0] @ self.plane.axes[:2], normals)
-        return np.hypot(1.0, self.curve(along, 1)) * np.hypot(1.0, tilt / (normals @ self.plane.axes[2]))
+        return self.plane.footprints(feet)["pinion"].normals
+
+    def _on_flank(self, along: Floats, normals: Floats) -> tuple[Floats, Floats]:
+        """Of flanks with normals (R, 3) at stations: unit directions (R, 3, 3) along, across and normal, and how far
+        (R, 2) along, and straight across that, a mm along and one across in the contact plane below leads there.
+        """
+        ways = self.directions(along) @ self.plane.axes[:2]
+        steep = np.einsum("kij,kj->ki", ways, normals) / (normals @ self.plane.axes[2])[:, None]
+        above = ways - steep[..., None] * self.plane.axes[2]
+        length = np.linalg.norm(above[:, 0], axis=1)
+        first = above[:, 0] / length[:, None]
+        second = np.cross(normals, first)
+        across = np.einsum("ki,ki->k", above[:, 1], second)
+        return np.stack([first, second, normals], axis=1), np.stack([length, across], axis=1)
 
     def grid(self, window: Window, rows: int, columns: int) -> ContactGrid | None:
         """The cells of a part of the strip; None where no gap is so small."""
@@ -253,17 +269,12 @@ class Strip:
         up, met = self.plane.axes[2], of["pinion"].points
         points = feet + ((met - feet) @ up)[:, None] * up
         normals, upright = of["pinion"].normals, of["pinion"].normals @ up
-        ways = np.repeat(self.directions(along), columns, axis=0) @ self.plane.axes[:2]
-        # A way in the contact plane is one on the flank above it, where that is steeper by so much.
-        steep = np.einsum("kij,kj->ki", ways, normals) / upright[:, None]
-        on_flank = ways - steep[..., None] * up
-        longer = np.linalg.norm(on_flank, axis=2)
+        frame, longer = self._on_flank(np.repeat(along, columns), normals)
         # Rows across a bent curve are longer on its outside, as their centres are further apart there.
         slope, bend = self.curve(along, 1), self.curve(along, 2)
         turned = 1.0 - offsets * (bend / (1.0 + slope**2) ** 1.5)[:, None]
         length = (steps * np.hypot(1.0, slope))[:, None] * turned
         half = 0.5 * longer * np.stack([length.ravel(), np.repeat(size, columns)], axis=1)
-        frame = np.concatenate([on_flank / longer[..., None], normals[:, None]], axis=1)
         free, beyond = self._bounds(along, steps, offsets, sides, cut)
         middle_foot = feet.mean(axis=0)
         place = {name: flank.place(of[name], middle_foot) for name, flank in self.plane.flanks.items()}
