@@ -210,7 +210,8 @@ class _Flank:
         points = np.where(np.isfinite(points), points, feet_body)
         section = curves.section.at(points)
         low, high = self.form.faces
-        held = np.clip(section, low, high)
+        pierced &= np.isfinite(section)
+        held = np.clip(np.where(pierced, section, low), low, high)
         first, last = curves.first(held), curves.last(held)
         fraction, across = (profile - first) / (last - first), (section - low) / (high - low)
         within = np.minimum(across, 1.0 - across)
