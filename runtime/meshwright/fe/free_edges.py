@@ -88,7 +88,8 @@ def _images(of: tuple[_Beside, ...], material: Material) -> Floats:
     for other in others:
         beside = other.away[near, None] + other.away[None, near]
     away = first.away[near, None] + first.away[None, near]
-    moved = far_or_near(away, beside, *first.half[:, near], material.plane_strain_modulus)
+    across, along = first.half[:, near]
+    moved = far_or_near(away, beside, across, along, material.plane_strain_modulus)
     found = np.zeros((len(weight),) * 2)
     found[np.ix_(near, near)] = weight[near, None] * moved * weight[None, near]
     return image_factor(material.poisson_ratio) ** len(of) * found
@@ -106,7 +107,7 @@ def _edges(grid: ContactGrid, name: str, shape: tuple[int, int]) -> Iterator[_Be
         if not steepness > 0.0:
             continue
         across = slope / steepness
-        size = np.hypot(*(across * grid.half).T)
+        size = np.hypot(across[0] * grid.half[:, 0], across[1] * grid.half[:, 1])
         away = patches / (shape[axis] * steepness)
         along = centres @ np.array([-across[1], across[0]])
         yield _Beside(axis, end, away, along, _weight(patches), np.stack([size, grid.half.prod(axis=1) / size]))

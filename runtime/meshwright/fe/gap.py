@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.pair import GearPair, Member, PairTouch
@@ -68,7 +68,7 @@ class ContactGrid:
         bounded = np.any([np.zeros(len(self.gap), dtype=bool), *self.beyond.values()], axis=0)
         if not bounded.any():
             return bounded
-        distance, _ = cKDTree(self.points[bounded]).query(self.points)
+        distance, _ = KDTree(self.points[bounded]).query(self.points)
         return distance <= self.columns * self.half[:, 1].max()
 
 

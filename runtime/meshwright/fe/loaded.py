@@ -15,7 +15,7 @@ from functools import cached_property
 
 import numpy as np
 from scipy.optimize import brentq
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from meshwright.fe.cells import Cells
 from meshwright.fe.compliance import ToothCompliance
@@ -397,7 +397,7 @@ def _likely(place: _Place, window: Window, grid: ContactGrid, before: _Solution 
     if before is None or place not in before.places:
         return grid.gap < _TOUCHING * window.closing
     at = before.places.index(place)
-    _, nearest = cKDTree(before.grids[at].points).query(grid.points)
+    _, nearest = KDTree(before.grids[at].points).query(grid.points)
     return before.pressures[at][nearest] > 0.0
 
 

@@ -331,24 +331,35 @@ def _last(holds: Callable[[Floats], Bools], inner: Floats, outer: Floats) -> Flo
 def _least_gap(plane: ContactPlane, along: Floats, low: float, high: float) -> Floats:
     """Second coordinates (K,) at which the surfaces of both flanks, limits apart, come nearest to one another.
 
-    From the best of some places across the flanks on by Newton's method with central differences.
+    From the best of some places on both flanks on by Newton's method with central differences; beyond the flanks, where
+    surfaces may cut one another, from what is next to that.
     """
     step = _DIFFERENCE * (high - low)
     lattice = np.linspace(low, high, _STARTS)
-    gaps = _surface_gaps(plane, along, np.tile(lattice, (len(along), 1)))
-    across = lattice[np.argmin(np.nan_to_num(gaps, nan=np.inf), axis=1)]
+    gaps = _gaps(plane, along, np.tile(lattice, (len(along), 1)), limits=True)
+    best = np.nan_to_num(gaps, nan=np.inf)
+    across = _between(along, np.where(np.isfinite(gaps).any(axis=1), lattice[np.argmin(best, axis=1)], np.nan))
     for _ in range(_STEPS):
-        before, here, after = _surface_gaps(plane, along, across[:, None] + step * np.array([-1.0, 0.0, 1.0])).T
+        before, here, after = _gaps(plane, along, across[:, None] + step * np.array([-1.0, 0.0, 1.0])).T
         bend = (after - 2.0 * here + before) / step**2
         move = -0.5 * (after - before) / (step * np.where(bend > 0.0, bend, np.nan))
         across = across + np.clip(move, -0.25 * (high - low), 0.25 * (high - low))
-    known = np.isfinite(across)
-    return np.interp(along, along[known], across[known]) if known.any() else np.zeros_like(along)
+    beyond = high - low
+    return _between(along, np.where((across > low - beyond) & (across < high + beyond), across, np.nan))
 
 
-def _surface_gaps(plane: ContactPlane, along: Floats, across: Floats) -> Floats:
-    """Gaps (K, M) along the plane's normal at the first coordinates (K,) and the second ones (K, M)."""
+def _between(along: Floats, values: Floats) -> Floats:
+    """Values (K,) at stations, where they are not numbers between those of the next ones that are; else 0."""
+    known = np.isfinite(values)
+    return np.interp(along, along[known], values[known]) if known.any() else np.zeros_like(along)
+
+
+def _gaps(plane: ContactPlane, along: Floats, across: Floats, limits: bool = False) -> Floats:
+    """Gaps (K, M) along the plane's normal at the first coordinates (K,) and the second ones (K, M), of the surfaces,
+    or of the flanks within their limits.
+    """
     places = np.stack(np.broadcast_arrays(along[:, None], across), axis=-1).reshape(-1, 2)
     of = plane.footprints(plane.feet(places))
-    gap, _ = plane.gap(of)
-    return np.where(of["pinion"].pierced & of["wheel"].pierced, gap, np.nan).reshape(across.shape)
+    gap, inside = plane.gap(of)
+    there = inside if limits else of["pinion"].pierced & of["wheel"].pierced
+    return np.where(there, gap, np.nan).reshape(across.shape)
