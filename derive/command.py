@@ -40,8 +40,6 @@ from meshwright.base.worker import submit
 FAMILIES = "families.json"
 #: Exit status of what is open where ``--strict`` is given, and of what is refused.
 OPEN, REFUSED = 1, 2
-#: That of a command that was interrupted, as shells have it.
-INTERRUPTED = 130
 
 
 @contextmanager
@@ -64,9 +62,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except Refused as error:
         print(error, file=sys.stderr)
         return REFUSED
-    except KeyboardInterrupt:
-        print("interrupted; every file is whole, as it was or new", file=sys.stderr)
-        return INTERRUPTED
 
 
 def _derive(arguments: Sequence[str]) -> int:

@@ -123,3 +123,14 @@ def test_a_page_that_is_no_python_is_refused_by_its_line(tree, tmp_path, page):
     outcome = edits.compiled(tree, edit, tmp_path / "out")
     assert outcome.status == 2 and "Traceback" not in outcome.said
     assert re.search(rf"{page.rpartition('/')[2]}, line {len(lines)}: .*; correct the line", outcome.said), outcome.said
+
+
+def test_an_interrupted_run_ends_in_a_line(tree, tmp_path):
+    page = tree / "derive" / "tools" / "straight_blade.py"
+    before = page.read_text(encoding="utf-8")
+    page.write_text(before + "\nraise KeyboardInterrupt\n", encoding="utf-8")
+    try:
+        outcome = edits.derived(tree, "cylindrical_worm_zn_zn", "--output", tmp_path)
+    finally:
+        page.write_text(before, encoding="utf-8")
+    assert outcome.status == 130 and outcome.said.startswith("interrupted;") and not [*tmp_path.iterdir()]
