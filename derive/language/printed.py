@@ -60,7 +60,8 @@ def _no_texts(drive: Drive) -> Iterator[str]:
     for what, text in texts:
         if not isinstance(text, str):
             yield f"{what} is {text!r}; give a text"
-    for key, word in drive.variant.items():
+    chosen: dict[str, object] = {**drive.variant}
+    for key, word in chosen.items():
         if not isinstance(word, str | Count):
             yield f"the variant {key!r} is {word!r}; give a word of the design file, or a Count"
 

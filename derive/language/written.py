@@ -28,17 +28,17 @@ def made_by_hand() -> str:
     """The page outside the tree that makes the data object that is being made, itself and not by a word of the
     language or a page of the tree; or "".
     """
-    frame: FrameType | None = sys._getframe(2)  # pyright: ignore[reportPrivateUsage]
-    made = frame is not None and frame.f_code.co_name == "__post_init__"
-    while frame is not None and made and _makes(frame):
+    frame = sys._getframe(2)  # pyright: ignore[reportPrivateUsage]
+    made = frame.f_code.co_name == "__post_init__"
+    while made and _makes(frame) and frame.f_back is not None:
         frame = frame.f_back
-    file = "" if frame is None else frame.f_code.co_filename
+    file = frame.f_code.co_filename
     return file if made and is_page(file) and not file.startswith(_PAGES) else ""
 
 
 def _makes(frame: FrameType) -> bool:
     """Whether a frame is one of those that data classes put between an object and what makes it."""
-    return frame.f_code.co_name in ("__post_init__", "__init__") or frame.f_globals is vars(dataclasses)
+    return frame.f_code.co_name in ("__post_init__", "__init__") or frame.f_globals["__name__"] == dataclasses.__name__
 
 
 def is_tool(file: str) -> bool:
