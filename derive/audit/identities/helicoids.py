@@ -2,8 +2,8 @@
 
 from derive.audit.claims import Document, scope
 from derive.audit.described import Described
-from derive.audit.identities.conventions import identity
 from derive.audit.ledger import Chapter
+from derive.audit.paragraphs import identities
 
 DOCUMENT = Document(
     key="helicoids",
@@ -183,141 +183,100 @@ tube = Rz(psi)@(R*radial + rho*N) + vec(0, 0, p*psi)
     jets={"Px": ("t",), "Py": ("t",), "Pz": ("t",)},
 )
 
-CLAIMS = (
-    identity(
-        "helicoid",
-        "any profile",
-        "A helicoid moves along itself: n·(k × r + p k) = 0, for every profile.",
-        "dot(normal, cross(k, R) + p*k) = 0",
-        GENERIC,
-    ),
-    identity(
-        "normal",
-        "any profile",
-        "The normal is that of the section, turned by ψ: it need be formed only once.",
-        "normal = Rz(psi)@section",
-        GENERIC,
-    ),
-    identity(
-        "rounding-normal",
-        "hob tip",
-        "The tube around the helix of a ball's centre has the ball's radius as its normal, in both directions ...",
-        ["dot(N, N) = 1", "dot(Rz(psi)@N, d(tube, xi)) = 0", "dot(Rz(psi)@N, d(tube, psi)) = 0"],
-        ROUNDING,
-    ),
-    identity(
-        "rounding-join",
-        "hob tip",
-        "... it touches any flank from which the centre lies along the normal, which is square to the helix: the "
-        "tube's own normal there is the flank's.",
-        ["dot(n, T) = 0", "Rz(-psi)@(d(C, psi)) = T"],
-        ROUNDING,
-    ),
-    identity(
-        "rounding-tip",
-        "hob tip",
-        "At ξ = 0 the tube's normal is radial and its point the ball's radius farther out than the centre: it touches "
-        "the tip cylinder of that radius.",
-        ["R*radial + rho*radial = (R + rho)*vec(cos(a), sin(a), 0)", "dot(radial, around) = 0"],
-        ROUNDING,
-    ),
-    identity(
-        "zn-width",
-        "ZN",
-        "The straight edge crosses the reference cylinder where the groove is S wide.",
-        ["P.x**2 + P.y**2 = r**2"],
-        PITCH_POINT,
-        conditions=["r ≥ S sin λ / 2"],
-    ),
-    identity(
-        "zn-straight",
-        "ZN",
-        "Turned back by λ the edge lies in a plane and is straight.",
-        ["in_section.y = 0", "d(d(P, t), t) = vec(0, 0, 0)", "dot(d(P, t), d(P, t)) = 1"],
-        STRAIGHT,
-    ),
-    identity(
-        "za-normal",
-        "ZA",
-        "The description's outward normal (z′ρ, p, -ρ) with z′ = tan α / cos λ, times the flank's sign, is normal to "
-        "the helicoid of the straight axial edge.",
-        [
-            "dot(n, d(P, rho)) = 0",
-            "dot(n, vec(-P.y, P.x, p)) = 0",
-            "dot(Rz(psi)@n, d(swept, psi)) = 0",
-            "d(P.z, rho)*cos(lam) = s*tan(alpha)",
-        ],
-        AXIAL,
-    ),
-    identity(
-        "zi-normal",
-        "ZI",
-        "With ρ = r_b/cos a_t and z = s p inv a_t the same holds, and the slope dz/dρ is s p tan a_t/ρ.",
-        [
-            "dot(n, d(P, at)) = 0",
-            "dot(n, vec(-P.y, P.x, p)) = 0",
-            "dot(Rz(psi)@n, d(swept, psi)) = 0",
-            "d(P.z, at) = s*p*tan(at)/rho*d(rho, at)",
-        ],
-        INVOLUTE,
-        conditions=["ρ ≥ r_b"],
-    ),
-    identity(
-        "zk-normal",
-        "ZK",
-        "The grinding wheel's unit normal is perpendicular to the profile and to the screw motion: it is the worm's "
-        "normal, no derivative needed.",
-        ["dot(n, d(P, theta)) = 0", "dot(n, cross(k, P) + p*k) = 0", "dot(n, n) = 1"],
-        GROUND,
-        conditions=["cos θ ≠ 0", "sin λ ≠ 0"],
-    ),
-    identity(
-        "zk-radius",
-        "ZK",
-        "At θ = 0 the profile has the radius at which a ZI of equal size touches it, whatever the grinding wheel.",
-        "P.x**2 + P.y**2 = (r - S/2*sin(alpha)*cos(alpha))**2 + (S/2*cos(alpha)**2*sin(lam))**2",
-        MIDDLE,
-    ),
-    identity(
-        "zc-normal",
-        "ZC",
-        "The arc's unit normal is perpendicular to the grinding wheel in both directions; the arc has the radius ρc.",
-        [
-            "dot(n, d(P, theta)) = 0",
-            "dot(n, d(P, xi)) = 0",
-            "dot(n, n) = 1",
-            "dot(d(P, xi), d(P, xi)) = rho_c**2",
-        ],
-        ARC,
-    ),
-    identity(
-        "zc-meshing",
-        "ZC",
-        "At fixed θ the equation of meshing of the grinding wheel is a cos ξ + b sin ξ with no constant, so the "
-        "contact point is explicit: the two directions that solve it are opposite.",
-        "d(d(dot(n, cross(k, P) + r*tan(lam)*k), xi), xi) = -dot(n, cross(k, P) + r*tan(lam)*k)",
-        ARC,
-        conditions=["(a, b) ≠ (0, 0)"],
-    ),
-    identity(
-        "zn-normal",
-        "ZN",
-        "The straight edge's normal is perpendicular to the edge and to the screw motion.",
-        [
-            "dot(n, d(P, t)) = 0",
-            "dot(n, cross(vec(0, 0, 1), P) + p*vec(0, 0, 1)) = 0",
-            "dot(Rz(psi)@n, d(swept, psi)) = 0",
-        ],
-        STRAIGHT,
-    ),
-    identity(
-        "zc-limit",
-        "ZC",
-        "On the pitch circle of the grinding wheel the disc of form C has the point and the normal of the cone of "
-        "form K, at every θ: the arc touches the cone's generatrix there.",
-        ["arc = cone", "arc_normal = cone_normal"],
-        ARC_END,
-    ),
+CLAIMS = identities(
+    """
+helicoid | any profile | GENERIC
+A helicoid moves along itself: n·(k × r + p k) = 0, for every profile.
+    dot(normal, cross(k, R) + p*k) = 0
+
+normal | any profile | GENERIC
+The normal is that of the section, turned by ψ: it need be formed only once.
+    normal = Rz(psi)@section
+
+rounding-normal | hob tip | ROUNDING
+The tube around the helix of a ball's centre has the ball's radius as its normal, in both directions ...
+    dot(N, N) = 1
+    dot(Rz(psi)@N, d(tube, xi)) = 0
+    dot(Rz(psi)@N, d(tube, psi)) = 0
+
+rounding-join | hob tip | ROUNDING
+... it touches any flank from which the centre lies along the normal, which is square to the helix: the tube's own
+normal there is the flank's.
+    dot(n, T) = 0
+    Rz(-psi)@(d(C, psi)) = T
+
+rounding-tip | hob tip | ROUNDING
+At ξ = 0 the tube's normal is radial and its point the ball's radius farther out than the centre: it touches the tip
+cylinder of that radius.
+    R*radial + rho*radial = (R + rho)*vec(cos(a), sin(a), 0)
+    dot(radial, around) = 0
+
+zn-width | ZN | PITCH_POINT
+The straight edge crosses the reference cylinder where the groove is S wide.
+    P.x**2 + P.y**2 = r**2
+where: r ≥ S sin λ / 2
+
+zn-straight | ZN | STRAIGHT
+Turned back by λ the edge lies in a plane and is straight.
+    in_section.y = 0
+    d(d(P, t), t) = vec(0, 0, 0)
+    dot(d(P, t), d(P, t)) = 1
+
+za-normal | ZA | AXIAL
+The description's outward normal (z′ρ, p, -ρ) with z′ = tan α / cos λ, times the flank's sign, is normal to the helicoid
+of the straight axial edge.
+    dot(n, d(P, rho)) = 0
+    dot(n, vec(-P.y, P.x, p)) = 0
+    dot(Rz(psi)@n, d(swept, psi)) = 0
+    d(P.z, rho)*cos(lam) = s*tan(alpha)
+
+zi-normal | ZI | INVOLUTE
+With ρ = r_b/cos a_t and z = s p inv a_t the same holds, and the slope dz/dρ is s p tan a_t/ρ.
+    dot(n, d(P, at)) = 0
+    dot(n, vec(-P.y, P.x, p)) = 0
+    dot(Rz(psi)@n, d(swept, psi)) = 0
+    d(P.z, at) = s*p*tan(at)/rho*d(rho, at)
+where: ρ ≥ r_b
+
+zk-normal | ZK | GROUND
+The grinding wheel's unit normal is perpendicular to the profile and to the screw motion: it is the worm's normal, no
+derivative needed.
+    dot(n, d(P, theta)) = 0
+    dot(n, cross(k, P) + p*k) = 0
+    dot(n, n) = 1
+where: cos θ ≠ 0
+where: sin λ ≠ 0
+
+zk-radius | ZK | MIDDLE
+At θ = 0 the profile has the radius at which a ZI of equal size touches it, whatever the grinding wheel.
+    P.x**2 + P.y**2 = (r - S/2*sin(alpha)*cos(alpha))**2 + (S/2*cos(alpha)**2*sin(lam))**2
+
+zc-normal | ZC | ARC
+The arc's unit normal is perpendicular to the grinding wheel in both directions; the arc has the radius ρc.
+    dot(n, d(P, theta)) = 0
+    dot(n, d(P, xi)) = 0
+    dot(n, n) = 1
+    dot(d(P, xi), d(P, xi)) = rho_c**2
+
+zc-meshing | ZC | ARC
+At fixed θ the equation of meshing of the grinding wheel is a cos ξ + b sin ξ with no constant, so the contact point is
+explicit: the two directions that solve it are opposite.
+    d(d(dot(n, cross(k, P) + r*tan(lam)*k), xi), xi) = -dot(n, cross(k, P) + r*tan(lam)*k)
+where: (a, b) ≠ (0, 0)
+
+zn-normal | ZN | STRAIGHT
+The straight edge's normal is perpendicular to the edge and to the screw motion.
+    dot(n, d(P, t)) = 0
+    dot(n, cross(vec(0, 0, 1), P) + p*vec(0, 0, 1)) = 0
+    dot(Rz(psi)@n, d(swept, psi)) = 0
+
+zc-limit | ZC | ARC_END
+On the pitch circle of the grinding wheel the disc of form C has the point and the normal of the cone of form K, at
+every θ: the arc touches the cone's generatrix there.
+    arc = cone
+    arc_normal = cone_normal
+""",
+    globals(),
 )
 
 CHAPTER = Chapter(DOCUMENT, CLAIMS)
