@@ -1,4 +1,4 @@
-r"""Claims as they are written down: a paragraph each, in the order of their document.
+r"""Claims, and what pages say in words, as they are written down: a paragraph each.
 
     key | where it stands | SCOPE
     > what is printed, word for word
@@ -41,6 +41,21 @@ def identities(text: str, scopes: Mapping[str, Any], each: Each = as_list) -> tu
     """Claims of our own; ``each`` writes out an equation for all that the names in its braces stand for."""
     found = (_claim(paragraph, scopes, DERIVED, each) for paragraph in _paragraphs(text))
     return tuple(replace(claim, kind="identity") for claim in found if isinstance(claim, Claim))
+
+
+def paragraphs(text: str) -> list[str]:
+    """Paragraphs of prose, each on one line."""
+    return [paragraph.replace("\n", " ") for paragraph in _paragraphs(text)]
+
+
+def titled(text: str, sources: bool = False) -> list[tuple[str, ...]]:
+    """Paragraphs whose first line is their title: (title, prose), and with ``sources`` what is quoted in the end."""
+    found = []
+    for paragraph in _paragraphs(text):
+        title, _, body = paragraph.partition("\n")
+        prose, _, source = body.partition("\n> ")
+        found.append((title, prose.replace("\n", " "), *([source] if sources else ())))
+    return found
 
 
 def _paragraphs(text: str) -> list[str]:
