@@ -19,11 +19,14 @@ from derive.audit.checker import certificates, numbers, points, polynomials, rec
 
 #: Names that Coq or Certificate.v has.
 RESERVED = frozenset(
-    """
-    R I N Z S O C E Set Prop Type SProp as at by cofix else end exists exists2 fix for forall fun if in let match
-    mod open return then using where with exp ln sin cos tan sqrt pow PI Var Int Add Mul Opp Inv value proved
-    by_reduction
-    """.split()
+    re.findall(
+        r"\w+",
+        """
+        R I N Z S O C E Set Prop Type SProp as at by cofix else end exists exists2 fix for forall fun if in let match
+        mod open return then using where with exp ln sin cos tan sqrt pow PI Var Int Add Mul Opp Inv value proved
+        by_reduction
+        """,
+    )
 )
 
 
