@@ -1,7 +1,7 @@
 """Helicoids: one identity for every profile, then the flank forms of ISO 10828 as they are generated."""
 
 from derive.audit.claims import Document, scope
-from derive.audit.described import Described
+from derive.audit.described import Described, Factors
 from derive.audit.ledger import Chapter
 from derive.audit.paragraphs import identities
 
@@ -70,6 +70,24 @@ CONE_OF_ZK = tool("zk", {}, {"t_worm": "theta", "u_worm": "u"})
 ZC = tool("zc", {}, {"t_worm": "theta", "xi_worm": "xi", "rho_c_worm": "rho_c"})
 CONE, DISC = ZK.sweep("pinion"), ZC.sweep("pinion")
 
+
+def turned(drive: Described) -> dict:
+    """A worm's edge, its outward normal, and the flank that the edge sweeps."""
+    return {
+        "P": drive.edge("pinion"),
+        "outward": drive.normal("pinion"),
+        "swept": drive.carried(drive.sweep("pinion"), "P"),
+    }
+
+
+def ground(drive: Described, motion: Factors) -> dict:
+    """A point of a grinding wheel and its normal in the worm's frame, before the screw motion."""
+    return {
+        "P": drive.carried(motion, drive.edge("pinion")),
+        "n": drive.turned(motion, drive.edge_normal("pinion")),
+    }
+
+
 STRAIGHT = scope(
     "helicoids.straight-blade",
     """
@@ -78,11 +96,7 @@ in_section = Rx(-lam)@P
 n = outward
 """,
     signs=["s"],
-    described=lambda: {
-        "P": ZN.edge("pinion"),
-        "outward": ZN.normal("pinion"),
-        "swept": ZN.carried(ZN.sweep("pinion"), "P"),
-    },
+    described=lambda: turned(ZN),
 )
 
 #: The edge where it lies half the groove's width from the middle.
@@ -93,68 +107,25 @@ PITCH_POINT = scope(
     described=lambda: {"P": tool("zn", {}).edge("pinion")},
 )
 
-AXIAL = scope(
-    "helicoids.axial-blade",
-    "n = outward",
-    signs=["s"],
-    described=lambda: {
-        "P": ZA.edge("pinion"),
-        "outward": ZA.normal("pinion"),
-        "swept": ZA.carried(ZA.sweep("pinion"), "P"),
-    },
-)
-
+AXIAL = scope("helicoids.axial-blade", "n = outward", signs=["s"], described=lambda: turned(ZA))
 INVOLUTE = scope(
-    "helicoids.involute",
-    "n = outward",
-    signs=["s"],
-    described=lambda: {
-        "rho": ZI.name("t_worm"),
-        "P": ZI.edge("pinion"),
-        "outward": ZI.normal("pinion"),
-        "swept": ZI.carried(ZI.sweep("pinion"), "P"),
-    },
+    "helicoids.involute", "n = outward", signs=["s"], described=lambda: {"rho": ZI.name("t_worm"), **turned(ZI)}
 )
-
-#: Disc and arc in the worm's frame, before the screw motion.
 GROUND = scope(
-    "helicoids.grinding-wheel",
-    """
-k = vec(0, 0, 1)
-p = r*tan(lam)
-""",
-    signs=["s"],
-    described=lambda: {
-        "P": ZK.carried(CONE, ZK.edge("pinion")),
-        "n": ZK.turned(CONE, ZK.edge_normal("pinion")),
-    },
+    "helicoids.grinding-wheel", "k = vec(0, 0, 1)\np = r*tan(lam)", signs=["s"], described=lambda: ground(ZK, CONE)
 )
-
-ARC = scope(
-    "helicoids.arc",
-    """
-k = vec(0, 0, 1)
-""",
-    signs=["s"],
-    described=lambda: {
-        "P": ZC.carried(DISC, ZC.edge("pinion")),
-        "n": ZC.turned(DISC, ZC.edge_normal("pinion")),
-    },
-)
+ARC = scope("helicoids.arc", "k = vec(0, 0, 1)", signs=["s"], described=lambda: ground(ZC, DISC))
 
 #: The arc where it touches the cone, whose generatrix passes through the same point of the pitch circle.
 ARC_END = scope(
     "helicoids.arc-end",
-    """
-xi = 0
-u = 0
-""",
+    "xi = 0\nu = 0",
     signs=["s"],
     described=lambda: {
-        "arc": ZC.carried(DISC, ZC.edge("pinion")),
-        "cone": CONE_OF_ZK.carried(CONE, CONE_OF_ZK.edge("pinion")),
-        "arc_normal": ZC.turned(DISC, ZC.edge_normal("pinion")),
-        "cone_normal": CONE_OF_ZK.turned(CONE, CONE_OF_ZK.edge_normal("pinion")),
+        "arc": ground(ZC, DISC)["P"],
+        "cone": ground(CONE_OF_ZK, CONE)["P"],
+        "arc_normal": ground(ZC, DISC)["n"],
+        "cone_normal": ground(CONE_OF_ZK, CONE)["n"],
     },
 )
 
@@ -163,7 +134,7 @@ MIDDLE = scope(
     "helicoids.grinding-wheel-middle",
     "theta = 0",
     signs=["s"],
-    described=lambda: {"P": ZK.carried(CONE, ZK.edge("pinion"))},
+    described=lambda: {"P": ground(ZK, CONE)["P"]},
 )
 
 ROUNDING = scope(
