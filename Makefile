@@ -93,7 +93,7 @@ preshown:
 # Regenerate into a temporary folder and fail on any byte of difference from the manifest and from what git keeps; what it
 # does not keep is taken from there.
 check: setup
-	folder=$$(mktemp -d) && $(PY) -m derive --output $$folder && $(DERIVED) check $$folder && rm -r $$folder
+	folder=$$(mktemp -d) && $(PY) -m derive --strict --output $$folder && $(DERIVED) check $$folder && rm -r $$folder
 
 # Set up, regenerate, prove, compile, and solve a published drive beside the paper's table. What is committed of it is
 # compiled meanwhile, and again only if regenerating has changed it; other drives are compiled when they are first used.

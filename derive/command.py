@@ -16,17 +16,18 @@ and on its page, and nothing is cited from it. The C is written all the same, un
 from __future__ import annotations
 
 import argparse
+import json
 import multiprocessing
 import sys
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
 from derive import compiler, drive_folder, generated, products
-from derive.audit.standing import UNKNOWN, Standing, of_ledger, standings
+from derive.audit.standing import Standings, of_ledger, standings
 from derive.compiler import Compiled
 from derive.emit import families
 from derive.language.validate_outlines import validate_outlines
@@ -35,6 +36,8 @@ from derive.pages import EVERY, Page, of_tree, pages
 from derive.refusals import Refused, told
 from meshwright.base.worker import submit
 
+#: What is known of every drive before it is derived.
+FAMILIES = "families.json"
 #: Exit status of what is open where ``--strict`` is given, and of what is refused.
 OPEN, REFUSED = 1, 2
 
@@ -105,8 +108,18 @@ def _some(folder: Path, words: Sequence[str]) -> list[Compiled]:
         if word.endswith(".py"):
             raise Refused(f"{word}: what a file defines is written to a folder of its own: add --into FOLDER")
     made = [compiler.compile_drive(page, standings, log, submit=submit) for page in pages(words)]
-    generated.add(folder, {path: text for compiled in made for path, text in compiled.files.items()})
+    files = {path: text for compiled in made for path, text in compiled.files.items()}
+    table = folder / FAMILIES
+    if table.is_file() and not all(_is_in(table, compiled) for compiled in made):
+        files[FAMILIES] = families.text(_families()[0])
+    generated.add(folder, files)
     return made
+
+
+def _is_in(table: Path, compiled: Compiled) -> bool:
+    """Whether the table of families says of a drive what was just derived."""
+    described = json.loads(compiled.files[f"c/{compiled.name}.json"])
+    return families.agrees(json.loads(table.read_text(encoding="utf-8")), described, compiled.shared)
 
 
 def _everything(folder: Path, every: bool) -> list[Compiled]:
@@ -119,8 +132,8 @@ def _everything(folder: Path, every: bool) -> list[Compiled]:
     table, names = defined()
     made = _compiled(of_tree(names if every else packaged(table)), of_ledger(ledger))
     files = {path: text for compiled in made for path, text in compiled.files.items()}
-    files |= {"families.json": families.text(table), "README.md": products.readme()}
-    with log("emit", "audit record"):
+    files |= {FAMILIES: families.text(table), "README.md": products.readme()}
+    with log("emit", "audit record"), told("emit", "the audit record"):
         files |= record.files(ledger, files)
     generated.replace(folder, files)
     return made
@@ -134,16 +147,16 @@ def _families() -> tuple[dict, list[str]]:
         return families.table(listed), [drive.name for drive in listed]
 
 
-def _compiled(listed: Sequence[Page], known: Mapping[str, Standing]) -> list[Compiled]:
+def _compiled(listed: Sequence[Page], known: Standings) -> list[Compiled]:
     """Many pages, each compiled by whichever process is free; those that take longest come last."""
     with ProcessPoolExecutor(mp_context=multiprocessing.get_context("fork")) as processes:
         made = processes.map(partial(_compile, known), [page.name for page in reversed(listed)])
         return [*made][::-1]
 
 
-def _compile(known: Mapping[str, Standing], name: str) -> Compiled:
+def _compile(known: Standings, name: str) -> Compiled:
     (page,) = of_tree([name])
-    return compiler.compile_drive(page, lambda names: {each: known.get(each, UNKNOWN) for each in names}, log)
+    return compiler.compile_drive(page, lambda names: known, log)
 
 
 def _show(arguments: Sequence[str]) -> int:

@@ -23,7 +23,7 @@ from pathlib import Path
 from typing import TypeAlias, TypeVar
 
 from derive.audit import provenance
-from derive.audit.provenance import Provenance, Standings
+from derive.audit.provenance import Decide, Provenance
 from derive.emit import bounded, c99, certified, certify, families, lanes, metadata, sensitivity
 from derive.language import description
 from derive.language.drive import Drive
@@ -47,8 +47,11 @@ from derive.passes.sample import observation
 from derive.passes.schedule import scheduled
 from derive.passes.tangents import differentiate
 from derive.refusals import told
+from meshwright.base import worker
 
 T = TypeVar("T")
+#: How work is done beside this process, if at all.
+Submit: TypeAlias = Callable[[Callable[[], T]], Callable[[], T]]
 #: What is told of a stage, by its word, and a drive.
 Log: TypeAlias = Callable[[str, str], AbstractContextManager[None]]
 
@@ -82,14 +85,14 @@ class Compiled:
 
 def compile_drive(
     page: Page,
-    standings: Standings,
+    decide: Decide,
     log: Log,
     emitted: Callable[[str, str], None] = lambda path, text: None,
-    submit: Callable[[Callable[[], T]], Callable[[], T]] = lambda work: work,
+    submit: Submit = worker.at_once,
 ) -> Compiled:
     """Take one page through the six stages.
 
-    ``standings`` says how statements stand (:func:`derive.audit.standing.standings`). ``emitted`` is called with path
+    ``decide`` says how statements stand (:func:`derive.audit.standing.standings`). ``emitted`` is called with path
     and text of each file as soon as it is made. ``submit`` (:func:`meshwright.base.worker.submit`) does half
     the work in processes of their own. Raises :class:`~derive.refusals.Refused` for what cannot be compiled, in words.
     """
@@ -112,7 +115,7 @@ def compile_drive(
     with stage("schedule"):
         plan = scheduled(plan)
         steps = provenance.cited(plan)
-    proof = apart("prove", partial(standings, {key for keys in steps.values() for key in keys}))
+    proof = apart("prove", partial(decide, {key for keys in steps.values() for key in keys}))
     unproved = apart("emit", partial(checked, plan))
     open_: dict[str, str] = {}
 

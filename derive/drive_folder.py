@@ -15,7 +15,7 @@ from pathlib import Path
 
 from derive import compiler, products
 from derive.audit.checker.refusal import UNREADABLE, Rejected, Undecided
-from derive.audit.provenance import Standings
+from derive.audit.provenance import Decide
 from derive.files import replace_text
 from derive.pages import Page
 from derive.refusals import Refused
@@ -25,7 +25,7 @@ from meshwright.base.worker import submit
 HOLDS, FAILS, OPEN = "holds", "does not hold", "not decided"
 
 
-def write(page: Page, standings: Standings, folder: Path, log: compiler.Log) -> compiler.Compiled:
+def write(page: Page, decide: Decide, folder: Path, log: compiler.Log) -> compiler.Compiled:
     """Derive the drive of a page into a folder and compile it."""
     from meshwright.base import compile as build
 
@@ -42,7 +42,7 @@ def write(page: Page, standings: Standings, folder: Path, log: compiler.Log) -> 
                     replace_text(fresh / _place(path), text)
                     begun.written(Path(path).name)
 
-            made = compiler.compile_drive(page, standings, log, emitted, submit)
+            made = compiler.compile_drive(page, decide, log, emitted, submit)
             described = json.loads(made.files[f"c/{name}.json"])
             with log("audit", name):
                 entry = audit_entry(described, found[0](), page.file)

@@ -33,7 +33,7 @@ def _write(folder: Path, files: Mapping[str, str]) -> None:
         replace_text(folder / path, text)
 
 
-def _written(folder: Path) -> Mapping[str, str]:
+def _written(folder: Path) -> dict[str, str]:
     """Path → hash of what earlier runs wrote there, by the manifest; nothing where there is none."""
     if not (folder / MANIFEST).exists():
         return {}

@@ -31,6 +31,8 @@ def told(stage: str, name: str) -> Iterator[None]:
     except (DescriptionError, Unguarded) as error:
         raise Refused(_located(str(error))) from error
     except Exception as error:
+        if isinstance(error, OSError) and not written.line_of(error.__traceback__):
+            raise  # a file of the installation
         raise Refused(words(stage, name, error)) from error
 
 

@@ -62,7 +62,7 @@ def rows(claims: Mapping[str, Sequence]) -> list[Row]:
             reason = own if isinstance(own, str) else ""
             entries = tuple(own) if isinstance(own, list) else ()
             if kind == "equation" and not own:
-                entries = tuple(claim.key for claim in claims[document] if mentions(claim.where, label))
+                entries = tuple(claim.key for claim in claims.get(document, ()) if mentions(claim.where, label))
             found.append(Row(document, kind, label, line, entries, reason))
     return found
 

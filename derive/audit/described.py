@@ -16,7 +16,7 @@ from typing import Any
 
 from derive.audit.plain_text import text
 from derive.prove.collect import COLLECTED, as_tree, collected, opposite, replaced
-from derive.prove.tree import Tree, parse_formula
+from derive.prove.tree import NotationError, Tree, parse_formula
 from meshwright.base.expression import Evaluator
 
 
@@ -133,8 +133,11 @@ class Described:
         return reader({name: value for name, value in named.items() if name not in self.letters}, self.letters)
 
     def tree(self, data: Any) -> Tree:
-        """An expression of the description."""
-        return as_tree(self._reader(data))
+        """An expression of the description; NotationError for one that the closed grammar does not have."""
+        try:
+            return as_tree(self._reader(data))
+        except KeyError as error:
+            raise NotationError(f"{error.args[0]} is no operation of the closed grammar") from error
 
     def _of(self, part: list, tree: Tree) -> Tree:
         """The tree, with where it was read."""
@@ -167,10 +170,11 @@ class Described:
         return [self._of(["arc", k, part], self.tree(operand)) for k, operand in enumerate(value[1:], 1)]
 
     def _rule(self, target: str, place: int) -> Any:
-        return [value for name, value in self.data["rules"] if name == target][place - 1]
+        found = [value for name, value in self.data["rules"] if name == target]
+        return self._one(found[place - 1 : place], f"rule for {target}")
 
     def _size(self, key: str) -> Any:
-        return next(entry["value"] for entry in self.data["sizes"] if entry["key"] == key)
+        return self._one([entry["value"] for entry in self.data["sizes"] if entry["key"] == key], f"size {key}")
 
     def name(self, name: str) -> Tree:
         """A definition, or a name as the document writes it."""
@@ -180,8 +184,8 @@ class Described:
         return self._of(["contact", name], self.tree(self.data["contact"][name]))
 
     def margin(self, place: str, event: str) -> Tree:
-        positive = next(m["positive"] for m in self._place(place)["margins"] if m["event"] == event)
-        return self._of(["margin", place, event], self.tree(positive))
+        found = [m["positive"] for m in self._place(place)["margins"] if m["event"] == event]
+        return self._of(["margin", place, event], self.tree(self._one(found, f"limit {event} of {place}")))
 
     def _place(self, place: str) -> dict:
         entries = {body["name"]: body for body in self.data["bodies"]}
@@ -193,10 +197,12 @@ class Described:
 
     def _step(self, steps: Sequence[dict], word: str) -> dict:
         """The first of these steps of this kind."""
-        for step in steps:
-            if step["step"] == word:
-                return step
-        raise LookupError(f"nothing of {self.drive} is {word} any more")
+        return self._one([step for step in steps if step["step"] == word], f"surface that is {word}")
+
+    def _one(self, found: Sequence, what: str) -> Any:
+        if not found:
+            raise LookupError(f"{self.drive} has no {what}")
+        return found[0]
 
     def edge(self, place: str) -> Tree:
         """The tool's edge, or its given point."""

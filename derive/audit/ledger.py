@@ -24,10 +24,11 @@ OPERATIONS = {"d": "diff", "cross": "cross", "dot": "dot", "triple": "dot", "@":
 
 @dataclass(frozen=True)
 class Chapter:
-    """A document and what is claimed in it, in reading order."""
+    """A document and what is claimed in it, in reading order; or why that is `unreadable`."""
 
     document: Document
     claims: Sequence[Claim | FigureClaim]
+    unreadable: str = ""
 
 
 @dataclass(frozen=True)
@@ -97,10 +98,11 @@ class Verdict:
 
 @dataclass
 class Ledger:
-    """Every object of the record by its hash, and the verdicts in reading order."""
+    """Every object of the record by its hash, the verdicts in reading order, and documents that cannot be read."""
 
     objects: dict[str, dict] = field(default_factory=dict)
     verdicts: dict[str, list[Verdict]] = field(default_factory=dict)
+    unreadable: dict[str, str] = field(default_factory=dict)
 
     @property
     def root(self) -> str:
@@ -119,6 +121,8 @@ def build(chapters: Sequence[Chapter]) -> Ledger:
     for chapter in chapters:
         document = chapter.document
         ledger.verdicts[document.key] = [judged(ledger, document, claim) for claim in chapter.claims]
+        if chapter.unreadable:
+            ledger.unreadable[document.key] = chapter.unreadable
     return ledger
 
 
@@ -128,8 +132,10 @@ def judged(ledger: Ledger, document: Document, claim: Claim | FigureClaim) -> Ve
     entered = Ledger(dict(ledger.objects))
     try:
         source = entered.add(_source(document, claim))
-        judge = _judge_figures if isinstance(claim, FigureClaim) else _judge
-        verdict = judge(entered, document, claim, source)
+        if isinstance(claim, FigureClaim):
+            verdict = _judge_figures(entered, document, claim, source)
+        else:
+            verdict = _judge(entered, document, claim, source)
     except Exception as error:  # noqa: BLE001  whatever a description holds now where the claim read something else
         return Verdict(claim, "undecided", id=identifier, unreadable=f"{type(error).__name__}: {error}")
     ledger.objects.update(entered.objects)

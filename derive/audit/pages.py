@@ -131,7 +131,8 @@ def pages(
     covered = coverage.rows(claims)
     drives = drive_pages(generated, functions)
     used = _used(drives)
-    names = {document.key: document.name for document, _ in sources}
+    names = {row.document: row.document for row in covered}  # of one that cannot be read there is no more
+    names |= {document.key: document.name for document, _ in sources}
     counts = {document.key: Counter(entry.status for entry in entries) for document, entries in shown}
     texts = {
         "index.html": _render(

@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import TypeAlias, TypedDict
 
-from derive.audit.standing import Standing
+from derive.audit.standing import Standings
 from derive.language.origin import ANGLES, CONTACT, ELIMINATION, SINGULAR, STEP_SIZE, UNIT, joined
 from derive.passes.guards import functions, partial_operations
 from derive.passes.plan import Schedule
 
-#: How the statements of these names stand, by name.
-Standings: TypeAlias = Callable[[Collection[str]], Mapping[str, Standing]]
+#: What says how the statements of these names stand.
+Decide: TypeAlias = Callable[[Collection[str]], Standings]
 
 
 class Provenance(TypedDict):
@@ -39,7 +39,7 @@ def cited(plan: Schedule) -> dict[str, tuple[str, ...]]:
     return steps
 
 
-def provenance(standings: Mapping[str, Standing], steps: Mapping[str, Collection[str]]) -> Provenance:
+def provenance(standings: Standings, steps: Mapping[str, Collection[str]]) -> Provenance:
     """What is proved and what is open of the statements behind each function (:func:`cited`)."""
     open_: dict[str, str] = {}
     held: dict[str, list[str]] = {}

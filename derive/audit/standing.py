@@ -40,30 +40,47 @@ class Standing:
         return f"proved of the definitions of {', '.join(map(shown, sorted(self.pages)))}, not of {shown(page)}"
 
 
-#: Of a name that the record does not have.
-UNKNOWN = Standing("", "the audit record has no statement of this name")
+class Standings(dict[str, Standing]):
+    """Statements by their names, and documents that cannot be read, with the reason."""
+
+    def __init__(self, known: Mapping[str, Standing], unreadable: Mapping[str, str]):
+        super().__init__(known)
+        self.unreadable = unreadable
+
+    def __missing__(self, name: str) -> Standing:
+        if reason := self.unreadable.get(name.partition("/")[0]):
+            return Standing("", UNREADABLE + reason)
+        return Standing("", "the audit record has no statement of this name")
 
 
-def standings(names: Collection[str]) -> dict[str, Standing]:
+#: How the reason begins why a statement is open that reads what is not there.
+UNREADABLE = "cannot be read of the description any more: "
+
+
+def standings(names: Collection[str]) -> Standings:
     """The statements of these names, each read and decided now."""
     from derive.audit import record
 
-    found: dict[str, Standing] = dict.fromkeys(names, UNKNOWN)
-    for chapter in record.chapters({name.partition("/")[0] for name in names}):
-        for claim in chapter.claims:
-            if (name := f"{chapter.document.key}/{claim.key}") in found:
-                found[name] = _standing(judged(Ledger(), chapter.document, claim))
-    return found
+    chapters = record.chapters({name.partition("/")[0] for name in names})
+    wanted = (
+        judged(Ledger(), chapter.document, claim)
+        for chapter in chapters
+        for claim in chapter.claims
+        if f"{chapter.document.key}/{claim.key}" in names
+    )
+    unreadable = {chapter.document.key: chapter.unreadable for chapter in chapters if chapter.unreadable}
+    return Standings({verdict.id: _standing(verdict) for verdict in wanted}, unreadable)
 
 
-def of_ledger(ledger: Ledger) -> dict[str, Standing]:
+def of_ledger(ledger: Ledger) -> Standings:
     """All statements of a ledger that was just built."""
-    return {verdict.id: _standing(verdict) for verdicts in ledger.verdicts.values() for verdict in verdicts}
+    verdicts = (verdict for listed in ledger.verdicts.values() for verdict in listed)
+    return Standings({verdict.id: _standing(verdict) for verdict in verdicts}, ledger.unreadable)
 
 
 def _standing(verdict: Verdict) -> Standing:
     if verdict.unreadable:
-        return Standing("", f"cannot be read of the description any more: {verdict.unreadable}")
+        return Standing("", UNREADABLE + verdict.unreadable)
     read = drives_read(verdict)
     pages = frozenset(page for name in read for page in _pages_citing(name).get(verdict.id, ())) if read else None
     return Standing(verdict.sha256[:KEY], _open(verdict), pages)

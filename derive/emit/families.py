@@ -50,6 +50,18 @@ def _outline(outline):
     return {"options": outline.options, "words": outline.words, "suggestions": suggestions}
 
 
+def agrees(families, described, shared):
+    """Whether a table says of a drive what its own description (:mod:`derive.emit.metadata`) and what it shares with
+    its family say.
+    """
+    family = families["families"].get(described["family"], {"drives": [], "outline": None})
+    known = [entry for entry in family["drives"] if entry["name"] == described["name"]]
+    said = [{**entry, "parameters": [family["parameters"][k] for k in entry["parameters"]]} for entry in known]
+    return said == [{key: described[key] for key in entry} for entry in known] != [] and (
+        shared["outline"] in (None, family["outline"])
+    )
+
+
 def text(families):
     """The file of a table; an exchange, whose expressions are nested, takes a line."""
     compact = {name: json.dumps(f["exchange"], ensure_ascii=False) for name, f in families["families"].items()}

@@ -11,7 +11,7 @@ import sympy as sp
 from derive.language.chain import Motion
 from derive.language.definitions import Definitions
 from derive.language.functions import Function, LeastTeeth, ToolClearance
-from derive.language.origin import Cited
+from derive.language.origin import Cited, cited
 from derive.language.outline import Outline
 from derive.language.surface import Surface
 from derive.language.symbols import Guard, Parameter, Quantity, Rule, Unknown
@@ -314,9 +314,9 @@ class Drive:
 def citations(drive: Drive) -> Iterator[Cited]:
     """Every statement of the audit record that the pages of a drive cite."""
     for part in (*drive.bodies, *drive.regions):
-        yield from part.surface.steps
+        yield from cited(part.surface.steps)
     for function in drive.functions:
-        yield from function.rests_on
+        yield from cited(function.rests_on)
     for definitions in (drive.definitions, drive.start.definitions, *(s.definitions for s in drive.systems)):
         origins = (definitions.origin(symbol) for symbol, _ in definitions.items())
-        yield from (origin.statement for origin in origins if origin)
+        yield from cited(origin.statement for origin in origins if origin)

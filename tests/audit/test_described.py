@@ -15,6 +15,7 @@ from derive.audit.documents import face_worm, rack_and_pinion, recess_action, sp
 from derive.audit.identities import bevel, cylindrical_gears, cylindrical_worm, helicoids
 from derive.audit.identities import face_worm as face_worms
 from derive.audit.identities import spherical as spherical_gears
+from derive.audit.ledger import Ledger, judged
 from derive.prove import Outcome, decide
 from derive.prove.tree import symbols, walk
 from tests.quick import quick
@@ -247,12 +248,34 @@ def test_an_edit_of_the_description_makes_statements_false(edit, monkeypatch):
 
     with monkeypatch.context() as patch:
         patch.setattr(described, "_description", edited)
-        chapter = read_again(module, patch)
-    claims = {claim.key: claim for claim in chapter.CHAPTER.claims}
-    for key in keys:
-        for label, texts in statements_held_true(claims[key]):
-            found = {decide(claims[key].scope.statement(label, text)).outcome for text in texts}
-            assert Outcome.REFUTED in found, (key, label)
+        claims = {claim.key: claim for claim in read_again(module, patch).CHAPTER.claims}
+        for key in keys:
+            for label, texts in statements_held_true(claims[key]):
+                found = {decide(claims[key].scope.statement(label, text)).outcome for text in texts}
+                assert Outcome.REFUTED in found, (key, label)
+
+
+UNREADABLE = {
+    "outside the grammar": lambda d: definition(d, "P_worm_y", ["abs", "t_worm"]),
+    "an angle that is a square": lambda d: d["bodies"][1]["motion"][-1].__setitem__(2, ["^", "phi_wheel", 2]),
+    "a factor less": lambda d: d["bodies"][1]["motion"].pop(0),
+    "no envelope": lambda d: [steps(d, member).__setitem__(slice(1, None), []) for member in ("pinion", "wheel")],
+    "a division by zero": lambda d: d["definitions"][0].__setitem__("value", ["^", 0, -1]),
+}
+
+
+@pytest.mark.parametrize("edit", UNREADABLE)
+def test_what_an_edit_makes_unreadable_is_said_and_nothing_else(edit, monkeypatch):
+    data = copy.deepcopy(described._description(ZN))
+    UNREADABLE[edit](data)
+    with monkeypatch.context() as patch:
+        patch.setitem(described.AT_HAND, ZN, data)
+        chapter = read_again(recess_action, patch).CHAPTER
+        verdicts = [judged(Ledger(), chapter.document, claim) for claim in chapter.claims]
+    statuses = [verdict.status for verdict in verdicts]
+    assert "undecided" in statuses or edit == "a factor less"
+    assert statuses.count("proved") > statuses.count("undecided")
+    assert not any(verdict.unreadable for verdict in verdicts if verdict.status != "undecided")
 
 
 def statements():

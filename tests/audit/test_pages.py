@@ -55,8 +55,9 @@ def test_definitions_stand_once_on_a_page_and_hashes_in_full(name):
 
 def test_generated_c_names_what_it_computes():
     header = (GENERATED / "c" / "cylindrical_worm_zn_zn.h").read_text(encoding="utf-8")
-    for words in ("psi_hob: screw angle of the hob flank", "slope of the equation of meshing", "wheel angle"):
-        assert re.search(rf"= .*;  /\* .*{words}.* \*/", header), words
+    named = {"psi_hob": "screw angle of the hob flank", r"\w+": "slope of the equation of meshing"}
+    for name, words in named.items():
+        assert re.search(rf"const double t_{name} = .*;  /\* .*{words}.* \*/", header), words
 
 
 def test_a_long_formula_breaks_between_its_terms():

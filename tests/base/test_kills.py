@@ -9,12 +9,14 @@ import os
 import random
 import subprocess
 import sys
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from derive import command
+from derive import command, compiler, generated, pages, products
+from derive.audit.standing import standings
 from meshwright import Drive
 from meshwright.base.errors import UsageError
 from meshwright.base.files import locked
@@ -95,28 +97,14 @@ DRIVE = "spherical_spur_spur"
 @pytest.fixture(scope="module")
 def derived():
     """Files of a drive, derived once: what is killed here is their writing."""
-    return command._some([DRIVE])
+    (page,) = pages.pages([DRIVE])
+    return compiler.compile_drive(page, standings, command.log).files
 
 
-def _derive(monkeypatch, files, *arguments):
-    monkeypatch.setattr(command, "_some", lambda names: files)
-    everything = files | {"families.json": "{}\n"}
-    everything["manifest.json"] = command.products.manifest(everything)
-    monkeypatch.setattr(command, "_everything", lambda every: everything)
-
-    def run(place):
-        assert command.main([*arguments, "--output", str(place)]) == 0
-
-    return run
-
-
-@pytest.mark.parametrize("arguments", [[], [DRIVE]], ids=["everything", "a drive"])
+@pytest.mark.parametrize("write", [generated.replace, generated.add], ids=["everything", "a drive"])
 @pytest.mark.parametrize("times", quick([8, 100], 8))
-def test_files_whose_writing_was_killed_anywhere_end_as_the_same_bytes(
-    tmp_path, monkeypatch, capsys, derived, times, arguments
-):
+def test_files_whose_writing_was_killed_anywhere_end_as_the_same_bytes(tmp_path, derived, times, write):
     """Over a folder of an earlier version, with a file that there is no more."""
-    run = _derive(monkeypatch, derived, *arguments)
     old = {"c/old_drive.h": "", **dict.fromkeys([*derived][:3], "of an earlier version\n")}
 
     def over_an_older(place):
@@ -124,19 +112,19 @@ def test_files_whose_writing_was_killed_anywhere_end_as_the_same_bytes(
             for name, text in old.items():
                 (place / name).parent.mkdir(exist_ok=True)
                 (place / name).write_text(text)
-            (place / "manifest.json").write_text(command.products.manifest(old))
-        run(place)
+            (place / "manifest.json").write_text(products.manifest(old))
+        write(place, derived)
 
     _all_alike(over_an_older, tmp_path, times, seed=2)
 
 
 def test_a_full_disk_is_named_and_leaves_the_old_files(tmp_path, monkeypatch, capsys, derived):
-    run = _derive(monkeypatch, derived)
-    run(tmp_path)
+    generated.replace(tmp_path, derived)
     before = kills.contents(tmp_path)
-    monkeypatch.setattr(command, "_everything", lambda every: {name: text + "\n" for name, text in derived.items()})
+    grown = compiler.Compiled(DRIVE, {name: text + "\n" for name, text in derived.items()}, {}, {})
+    monkeypatch.setattr(compiler, "compile_drive", lambda *arguments, **options: grown)
     with kills.full_disk(monkeypatch, 1):
-        assert command.main(["--output", str(tmp_path)]) == 2
+        assert command.main([DRIVE, "--output", str(tmp_path)]) == 2
     assert "No space left on device" in capsys.readouterr().err
     after = kills.contents(tmp_path)
     assert all(after[name] == before[name] for name in after)
@@ -245,8 +233,10 @@ def test_a_finite_element_run_on_a_full_disk_says_so_and_goes_on(tmp_path, monke
 def test_whatever_takes_a_place_is_on_the_disk_before(tmp_path, monkeypatch, request, what):
     if what == "fe":
         run = request.getfixturevalue("analysis")
+    elif what == "sweep":
+        run = _sweep()
     else:
-        run = _sweep() if what == "sweep" else _derive(monkeypatch, request.getfixturevalue("derived"))
+        run = partial(generated.replace, files=request.getfixturevalue("derived"))
     synchronised, placed, sync, replace = set(), [], os.fsync, os.replace
 
     def noted(handle):

@@ -156,8 +156,8 @@ def header(monkeypatch):
 
 def test_what_the_checker_of_c_does_not_foresee_is_neither_right_nor_wrong(header):
     """An eleventh of an angle, a word that is no statement, a header that is none."""
-    angle = re.compile(r"( +\w+_sincos\()(x\[\d+\]|p\[\d+\])(, &s)")
-    eleventh = angle.sub(r"    const double t9999 = \2 * 0.09090909090909091;\n\1t9999\3", header)
+    angle = re.compile(r"(\n *)(double sin_\w+, cos_\w+; \w+_sincos\()(x\[\d+\]|p\[\d+\])(, &s)")
+    eleventh = angle.sub(r"\1const double t_eleventh = \3 * 0.09090909090909091;\1\2t_eleventh\4", header)
     changed = {
         "an angle is a fraction of": eleventh,
         "not a straight-line statement": header.replace("    R[0] = ", "    goto R[0] = ", 1),

@@ -24,6 +24,11 @@ def submit(work: Callable[[], T]) -> Callable[[], T]:
     return cache(_started(work)[0])
 
 
+def at_once(work: Callable[[], T]) -> Callable[[], T]:
+    """Start nothing: what :func:`submit` gives where ``work`` is done when its result is asked for."""
+    return cache(work)
+
+
 @contextmanager
 def in_worker(work: Callable[[], T]) -> Iterator[Callable[[], T]]:
     """:func:`submit` for ``with``, at whose end no worker is left."""
