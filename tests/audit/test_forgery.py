@@ -255,14 +255,14 @@ def step_with_an_input_it_does_not_use(forger):
     steps[-1]["inputs"] = sorted({*steps[-1]["inputs"], steps[0]["sha256"]})
 
 
-def read_with_other_letters(forger):
-    letters = forger.step("rack-and-pinion.r1")["read"]["letters"]
-    letters[[old for old, _ in letters].index("phi_worm")][1] = "-phi1"
-
-
 def read(forger):
     """Where the worm's surface was read."""
     return forger.step("rack-and-pinion.R1")["read"]
+
+
+def read_with_other_letters(forger):
+    letters = forger.step("rack-and-pinion.r1")["read"]["letters"]
+    letters[[old for old, _ in letters].index("phi_worm")][1] = "-phi1"
 
 
 def read_with_a_letter_that_stands_for_two_things(forger):
@@ -357,8 +357,8 @@ IN_ONE_STEP = {
     ),
     "no arcs as an object": (lambda f: f.certificate("recess-action/eq-16/as printed/1").update(arcs={}), "no list"),
     "rests on x is x": (
-        lambda f: f.proof("x", "x", text="x = x", point={"symbols": {"x": "1"}, "half_tangents": {}}, lhs=["1"], rhs=["1"]),
-        "same expression"
+        lambda f: f.proof("x", "x", point={"symbols": {"x": "1"}, "half_tangents": {}},
+                          text="x = x", lhs=["1"], rhs=["1"]), "same expression"
     ),
     "verdict on another source": (
         lambda f: f.verdict("recess-action/eq-16").update(source=f.source("recess-action/eq-12")["sha256"]),
