@@ -67,8 +67,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _derive(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m derive", description=__doc__)
     parser.add_argument("drive", nargs="*", help="drives to compile, or all; default: those of packaged designs")
-    parser.add_argument("--output", type=Path, default=compiler.ROOT / "generated", help="folder to write")
-    parser.add_argument("--into", type=Path, metavar="FOLDER", help="write a folder of drives, compiled and audited")
+    parser.add_argument("--output", type=_folder, default=compiler.ROOT / "generated", help="folder to write")
+    parser.add_argument("--into", type=_folder, metavar="FOLDER", help="write a folder of drives, compiled and audited")
     parser.add_argument("--strict", action="store_true", help="exit status 1 where a statement is open")
     options = parser.parse_args(arguments)
     try:
@@ -84,6 +84,13 @@ def _derive(arguments: Sequence[str]) -> int:
         for statement, reason in compiled.open.items():
             sys.stderr.write(f"open      {compiled.name:<28} {statement}: {reason}\n")
     return OPEN if options.strict and any(compiled.open for compiled in made) else 0
+
+
+def _folder(word: str) -> Path:
+    """A folder that is named; an empty word, as of a variable that is not set, would be the one where one is."""
+    if not word:
+        raise argparse.ArgumentTypeError("'' is no folder; name one, or . for this one")
+    return Path(word)
 
 
 def _refused(error: OSError, options: argparse.Namespace) -> str:
@@ -117,9 +124,12 @@ def _some(folder: Path, words: Sequence[str]) -> list[Compiled]:
 
 
 def _is_in(table: Path, compiled: Compiled) -> bool:
-    """Whether the table of families says of a drive what was just derived."""
+    """Whether the table of families says of a drive what was just derived; one that is damaged does not."""
     described = json.loads(compiled.files[f"c/{compiled.name}.json"])
-    return families.agrees(json.loads(table.read_text(encoding="utf-8")), described, compiled.shared)
+    try:
+        return families.agrees(json.loads(table.read_text(encoding="utf-8")), described, compiled.shared)
+    except (ValueError, LookupError, TypeError, AttributeError):
+        return False
 
 
 def _everything(folder: Path, every: bool) -> list[Compiled]:

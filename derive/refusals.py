@@ -30,13 +30,13 @@ def told(stage: str, name: str) -> Iterator[None]:
         raise
     except (DescriptionError, Unguarded) as error:
         raise Refused(_located(str(error))) from error
-    except Exception as error:
+    except (Exception, SystemExit) as error:  # a page that ends Python has compiled nothing
         if isinstance(error, OSError) and not written.line_of(error.__traceback__):
             raise  # a file of the installation
         raise Refused(words(stage, name, error)) from error
 
 
-def words(stage: str, name: str, error: Exception) -> str:
+def words(stage: str, name: str, error: BaseException) -> str:
     """What an error of Python's means for a drive in a stage."""
     if isinstance(error, SyntaxError) and error.filename and error.lineno:
         return f"{written.line(error.filename, error.lineno)}: {error.msg}; correct the line"

@@ -1,6 +1,7 @@
 """The audit record: what the sources print, what we derive, what was proved of it, which generated files rest on it.
 
-claims.py        the words in which documents are encoded: scopes of definitions, claims, printed numbers
+claims.py        the words in which documents are encoded: scopes of definitions, claims, printed numbers;
+                 paragraphs.py reads them from text
 documents/       the four source documents as printed; identities/ what we claim of our own derivations
 described.py     the derived side of both, read from the description of a drive
 coverage.py      what the documents display, beside the entries that judge it; displayed.py counts it from their texts

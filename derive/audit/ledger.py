@@ -6,7 +6,7 @@ JSON.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 from derive.audit.checker.lines import sha256_of
@@ -14,7 +14,7 @@ from derive.audit.checker.record import root_of
 from derive.audit.checker.verdicts import status_of
 from derive.audit.claims import AS_PRINTED, Claim, Document, Figure, FigureClaim, Scope, as_list
 from derive.audit.coverage import offset
-from derive.audit.described import origin_of
+from derive.audit.described import Origin, origin_of
 from derive.prove import Decision, Outcome, Statement, certificate, decide
 from derive.prove.edits import correction
 from derive.prove.tree import parse_formula, symbols
@@ -318,12 +318,28 @@ def _judge_figure(ledger: Ledger, identifier: str, figure: Figure, kind: str, so
 
 def drives_read(verdict: Verdict) -> list[str]:
     """The drives from whose descriptions the verdict's equations read; none where it is of mathematics in general."""
-    found = set()
+    return sorted({origin.drive for origin in _origins(verdict)})
+
+
+def edges_read(verdict: Verdict) -> set[tuple[str, str]]:
+    """The drives and places whose edges or normals the verdict's equations read."""
+    found: set[tuple[str, str]] = set()
+    for origin in _origins(verdict):
+        left = [origin.part]
+        while left:
+            word, *rest = left.pop()
+            if word in ("edge", "edge_normal", "normal"):
+                found.add((origin.drive, rest[0]))
+            elif word != "given":
+                left += [part for part in rest if isinstance(part, list)]
+    return found
+
+
+def _origins(verdict: Verdict) -> Iterator[Origin]:
     for reading in filter(None, (*verdict.readings, verdict.corrected, verdict.contradiction)):
         for part in reading.parts:
             if not isinstance(part.of, Figure):
-                found |= {origin.drive for tree in part.statement.used.values() if (origin := origin_of(tree))}
-    return sorted(found)
+                yield from filter(None, map(origin_of, part.statement.used.values()))
 
 
 def _verdict_body(verdict: Verdict, identifier: str, source: str) -> dict:

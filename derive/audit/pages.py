@@ -67,7 +67,6 @@ class Part:
     certificate: str
     conditions: tuple[str, ...]
     instance: dict | None
-    identifier: str
 
 
 @dataclass(frozen=True)
@@ -285,7 +284,7 @@ def _part(mathml: MathML, part: Judged, previous: Judged | None) -> Part:
     return Part(
         Markup(mathml.equation(left, right)), latex.equation(left, right), str(part.outcome), definitions,
         tuple(latex.equation(name, tree) for name, tree in statement.used.items()), _evidence(mathml, part),
-        part.certificate, _denominators(mathml, part), _instance(mathml, part.decision.instance), statement.id,
+        part.certificate, _denominators(mathml, part), _instance(mathml, part.decision.instance),
     )  # fmt: skip
 
 
@@ -297,18 +296,8 @@ def _figure_part(mathml: MathML, part: Judged) -> Part:
     else:
         value, aside = f"{figure.value:.7g}", f"printed {figure.printed} {figure.unit}"
     shown = mathml.figure(tree, value, aside)
-    return Part(
-        Markup(shown),
-        rf"{LaTeX().write(tree)} = {figure.value:.7g}",
-        str(part.outcome),
-        (),
-        (),
-        "numeric",
-        part.certificate,
-        (),
-        None,
-        part.equation[:12],
-    )
+    latex = rf"{LaTeX().write(tree)} = {figure.value:.7g}"
+    return Part(Markup(shown), latex, str(part.outcome), (), (), "numeric", part.certificate, (), None)
 
 
 def _evidence(mathml: MathML, part: Judged) -> str:

@@ -8,6 +8,7 @@ definitions and the operations of the tape. How each stands is decided beside th
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
+from itertools import chain
 from typing import TypeAlias, TypedDict
 
 from derive.audit.standing import Standings
@@ -42,14 +43,13 @@ def cited(plan: Schedule) -> dict[str, tuple[str, ...]]:
 def provenance(standings: Standings, steps: Mapping[str, Collection[str]]) -> Provenance:
     """What is proved and what is open of the statements behind each function (:func:`cited`)."""
     open_: dict[str, str] = {}
-    held: dict[str, list[str]] = {}
-    for function, names in steps.items():
-        for name in names:
-            if reason := standings[name].open_for(name):
-                open_.setdefault(str(name), reason)
-            else:
-                held.setdefault(function, []).append(str(name))
-    equations = sorted({name for names in held.values() for name in names})
+    for name in chain.from_iterable(steps.values()):
+        if reason := standings[name].open_for(name):
+            open_.setdefault(str(name), reason)
+    # of several surfaces that cite a statement, it holds of all or of none: what rests on both names it once
+    of_all = {function: [str(name) for name in names if name not in open_] for function, names in steps.items()}
+    held = {function: names for function, names in of_all.items() if names}
+    equations = sorted({*chain.from_iterable(held.values())})
     return {
         "equations": equations,
         "keys": {name: standings[name].key for name in equations},

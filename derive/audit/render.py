@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from html import escape
+from typing import ClassVar
 
 from derive.prove.tree import Tree
 
@@ -47,59 +47,23 @@ def _parts(shown: str) -> tuple[str, str, str]:
     return (escape(match[1]), match[2] or "", match[3]) if match else (escape(shown), "", "")
 
 
-class Format(ABC):
-    """How the parts of an expression are written; subclasses say it for MathML and LaTeX."""
+class Format:
+    """How the parts of an expression are written; subclasses say it for MathML and LaTeX: ``PATTERNS`` around what is
+    given in braces, and in methods what no pattern says.
+    """
+
+    PATTERNS: ClassVar[Mapping[str, str]]
 
     def __init__(self, names: Mapping[str, str] | None = None):
         self.names = names or {}
 
+    def __getattr__(self, part: str) -> Callable[..., str]:
+        if part not in self.PATTERNS:
+            raise AttributeError(part)
+        return self.PATTERNS[part].format
+
     def write(self, tree: Tree) -> str:
         return self._write(tree)[0]
-
-    @abstractmethod
-    def name(self, name: str) -> str: ...
-
-    @abstractmethod
-    def number(self, text: str) -> str: ...
-
-    @abstractmethod
-    def operator(self, sign: str) -> str: ...
-
-    @abstractmethod
-    def function(self, name: str) -> str: ...
-
-    @abstractmethod
-    def row(self, text: str) -> str: ...
-
-    @abstractmethod
-    def parens(self, text: str) -> str: ...
-
-    @abstractmethod
-    def times(self) -> str: ...
-
-    @abstractmethod
-    def space(self) -> str: ...
-
-    @abstractmethod
-    def comma(self) -> str: ...
-
-    @abstractmethod
-    def fraction(self, above: str, below: str) -> str: ...
-
-    @abstractmethod
-    def power(self, base: str, exponent: str) -> str: ...
-
-    @abstractmethod
-    def index(self, base: str, index: str) -> str: ...
-
-    @abstractmethod
-    def root(self, text: str) -> str: ...
-
-    @abstractmethod
-    def matrix(self, rows: list[list[str]]) -> str: ...
-
-    @abstractmethod
-    def mark(self, text: str) -> str: ...
 
     def plain(self, name: str) -> str:
         """A symbol, or the cosine, sine or jet of one, as plain text in the letters of the source."""
@@ -241,6 +205,22 @@ HANDLERS = {
 
 
 class MathML(Format):
+    PATTERNS: ClassVar = {
+        "number": "<mn>{}</mn>",
+        "operator": "<mo>{}</mo>",
+        "function": '<mi mathvariant="normal">{}</mi>',
+        "row": "<mrow>{}</mrow>",
+        "parens": "<mrow><mo>(</mo>{}<mo>)</mo></mrow>",
+        "times": '<mspace width="0.17em"/>',
+        "space": '<mspace width="0.17em"/>',
+        "comma": "<mo>,</mo>",
+        "fraction": "<mfrac><mrow>{}</mrow><mrow>{}</mrow></mfrac>",
+        "power": "<msup>{}{}</msup>",
+        "index": "<msub>{}<mi>{}</mi></msub>",
+        "root": "<msqrt>{}</msqrt>",
+        "mark": '<mrow class="mark">{}</mrow>',
+    }
+
     def name(self, name: str) -> str:
         base, index, prime = _parts(self.names[name]) if name in self.names else _split(name)
         if prime:
@@ -251,47 +231,9 @@ class MathML(Format):
             )
         return f"<msub><mi>{base}</mi><mi>{index}</mi></msub>" if index else f"<mi>{base}</mi>"
 
-    def number(self, text: str) -> str:
-        return f"<mn>{text}</mn>"
-
-    def operator(self, sign: str) -> str:
-        return f"<mo>{sign}</mo>"
-
-    def function(self, name: str) -> str:
-        return f'<mi mathvariant="normal">{name}</mi>'
-
-    def row(self, text: str) -> str:
-        return f"<mrow>{text}</mrow>"
-
-    def parens(self, text: str) -> str:
-        return f"<mrow><mo>(</mo>{text}<mo>)</mo></mrow>"
-
-    def times(self) -> str:
-        return '<mspace width="0.17em"/>'
-
-    space = times
-
-    def comma(self) -> str:
-        return "<mo>,</mo>"
-
-    def fraction(self, above: str, below: str) -> str:
-        return f"<mfrac><mrow>{above}</mrow><mrow>{below}</mrow></mfrac>"
-
-    def power(self, base: str, exponent: str) -> str:
-        return f"<msup>{base}{exponent}</msup>"
-
-    def index(self, base: str, index: str) -> str:
-        return f"<msub>{base}<mi>{index}</mi></msub>"
-
-    def root(self, text: str) -> str:
-        return f"<msqrt>{text}</msqrt>"
-
     def matrix(self, rows: list[list[str]]) -> str:
         body = "".join("<mtr>" + "".join(f"<mtd>{entry}</mtd>" for entry in row) + "</mtr>" for row in rows)
         return f"<mrow><mo>(</mo><mtable>{body}</mtable><mo>)</mo></mrow>"
-
-    def mark(self, text: str) -> str:
-        return f'<mrow class="mark">{text}</mrow>'
 
     def equation(self, left: Tree, right: Tree) -> str:
         """A displayed equation, in pieces between which its line may break."""
@@ -383,14 +325,25 @@ def _line(pieces: list[str]) -> str:
 
 
 class LaTeX(Format):
+    PATTERNS: ClassVar = {
+        "number": "{}",
+        "row": "{}",
+        "parens": r"\left({}\right)",
+        "times": r"\,",
+        "space": " ",
+        "comma": ", ",
+        "fraction": r"\frac{{{}}}{{{}}}",
+        "power": "{{{}}}^{{{}}}",
+        "index": "{{{}}}_{{{}}}",
+        "root": r"\sqrt{{{}}}",
+        "mark": r"\boxed{{{}}}",
+    }
+
     def name(self, name: str) -> str:
         base, index, prime = _parts(self.names[name]) if name in self.names else _split(name)
         text = LATEX_GREEK.get(base, _letters(base) if len(base) == 1 else rf"\mathrm{{{_letters(base)}}}")
         body = f"{text}_{{{_letters(index)}}}" if index else text
         return body + (r"^{\prime}" if prime else "")
-
-    def number(self, text: str) -> str:
-        return text
 
     def operator(self, sign: str) -> str:
         return LATEX_SIGNS.get(sign, sign)
@@ -398,38 +351,8 @@ class LaTeX(Format):
     def function(self, name: str) -> str:
         return rf"\{name}" if name in ("cos", "sin", "tan") else rf"\mathrm{{{name}}}"
 
-    def row(self, text: str) -> str:
-        return text
-
-    def parens(self, text: str) -> str:
-        return rf"\left({text}\right)"
-
-    def times(self) -> str:
-        return r"\,"
-
-    def space(self) -> str:
-        return " "
-
-    def comma(self) -> str:
-        return ", "
-
-    def fraction(self, above: str, below: str) -> str:
-        return rf"\frac{{{above}}}{{{below}}}"
-
-    def power(self, base: str, exponent: str) -> str:
-        return f"{{{base}}}^{{{exponent}}}"
-
-    def index(self, base: str, index: str) -> str:
-        return f"{{{base}}}_{{{index}}}"
-
-    def root(self, text: str) -> str:
-        return rf"\sqrt{{{text}}}"
-
     def matrix(self, rows: list[list[str]]) -> str:
         return r"\begin{pmatrix}" + r" \\ ".join(" & ".join(row) for row in rows) + r"\end{pmatrix}"
-
-    def mark(self, text: str) -> str:
-        return rf"\boxed{{{text}}}"
 
     def equation(self, left: Tree, right: Tree) -> str:
         return f"{self.write(left)} = {self.write(right)}"

@@ -9,13 +9,19 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import cache
+from itertools import chain
+from typing import Any
+
+import sympy as sp
 
 from derive import drives
 from derive.audit.checker.seal import KEY
 from derive.audit.claims import Figure
-from derive.audit.ledger import Judged, Ledger, Verdict, drives_read, judged
+from derive.audit.ledger import Judged, Ledger, Verdict, drives_read, edges_read, judged
 from derive.language.drive import citations
-from derive.language.written import shown
+from derive.language.replace import replaced
+from derive.language.surface import Surface
+from derive.language.written import is_tool, shown
 from derive.prove import Outcome
 
 
@@ -26,18 +32,40 @@ class Standing:
     key:    hash of the statement with all definitions that it reads, and of what shows it
     open:   why it is not proved, with a counterexample where there is one; "" for a proved one
     pages:  files whose definitions it is proved of; none where it reads no description and is true of any
+    shapes: of a statement about an edge, the surfaces that it is proved of (:func:`shape`), which a tool may make of
+            another body too; none of any other statement
     """
 
     key: str
     open: str = ""
     pages: frozenset[str] | None = None
+    shapes: frozenset[str] | None = None
 
     def open_for(self, statement: str) -> str:
         """Why a citation does not hold; "" if it does."""
         page = getattr(statement, "page", "")
-        if self.open or self.pages is None or page in self.pages:
+        if self.open or self.pages is None:
             return self.open
-        return f"proved of the definitions of {', '.join(map(shown, sorted(self.pages)))}, not of {shown(page)}"
+        if page not in self.pages:
+            return f"proved of the definitions of {', '.join(map(shown, sorted(self.pages)))}, not of {shown(page)}"
+        of = getattr(statement, "of", None)
+        if self.shapes is None or not is_tool(page) or not isinstance(of, Surface) or shape(of) in self.shapes:
+            return ""
+        return f"proved of another surface than that which {shown(page)} makes of {of.parameters[0].frame} here"
+
+
+def shape(surface: Surface) -> str:
+    """What point and normal of a surface are, without the names of the body: the same for a tool's other body."""
+    if surface not in _SHAPES:
+        vectors = [surface.definitions.resolve(c) for c in (*surface.point, *surface.normal)]
+        symbols = set(chain.from_iterable(vector.free_symbols for vector in vectors))
+        name = f"_{surface.parameters[0].frame}"
+        letters = {q: sp.Symbol(str(q).removesuffix(name), real=True) for q in symbols}
+        _SHAPES[surface] = str([replaced(vector, letters) for vector in vectors])
+    return _SHAPES[surface]
+
+
+_SHAPES: dict[Surface, str] = {}
 
 
 class Standings(dict[str, Standing]):
@@ -83,7 +111,20 @@ def _standing(verdict: Verdict) -> Standing:
         return Standing("", UNREADABLE + verdict.unreadable)
     read = drives_read(verdict)
     pages = frozenset(page for name in read for page in _pages_citing(name).get(verdict.id, ())) if read else None
-    return Standing(verdict.sha256[:KEY], _open(verdict), pages)
+    return Standing(verdict.sha256[:KEY], _open(verdict), pages, _shapes(verdict.id, edges_read(verdict)))
+
+
+def _shapes(statement: str, places: Collection[tuple[str, str]]) -> frozenset[str] | None:
+    """What the surfaces are at these places of drives where they cite the statement."""
+    cited = (step for drive, place in places for step in _steps_at(drive, place) if step == statement)
+    return frozenset(shape(step.of) for step in cited if isinstance(step.of, Surface)) or None
+
+
+def _steps_at(drive: str, place: str) -> Collection[Any]:
+    described = drives.drive(drive)
+    parts = {body.name: body for body in described.bodies}
+    parts |= {f"{region.member}/{region.name}": region for region in described.regions}
+    return parts[place].surface.steps
 
 
 def _open(verdict: Verdict) -> str:

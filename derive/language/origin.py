@@ -7,24 +7,35 @@ the drive was derived. The prove stage refuses an id that the record has not pro
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from derive.language.written import page_file
+from derive.language.written import made_by_hand, page_file
 
 
 class Cited(str):
-    """The id of a statement, with the ``page`` whose definitions it is said of: the file that cites it."""
+    """The id of a statement, with the ``page`` whose definitions it is said of, the file that cites it, and the
+    surface that it is said ``of``, as that was then; None where it is said of no surface.
+    """
 
     page: str = ""
+    of: object = None
 
 
 def cited(statements: Iterable[str]) -> tuple[Cited, ...]:
-    """These statements as cited by the page that calls, each kept that was cited before."""
-    found: list[Cited] = []
-    for statement in statements:
-        if not isinstance(statement, Cited):
-            statement = Cited(statement)
-            statement.page = page_file()
-        found.append(statement)
-    return tuple(found)
+    """These statements as cited by the page that calls.
+
+    One that was cited before is kept, unless a page outside the tree itself makes what rests on it: that page answers
+    for all of it.
+    """
+    listed = tuple(statements)
+    if page := made_by_hand():
+        return tuple(said(s, getattr(s, "of", None), page) for s in listed)
+    return tuple(s if isinstance(s, Cited) else said(s, None, page_file()) for s in listed)
+
+
+def said(statement: str, of: object, page: str) -> Cited:
+    """A statement as a page says it of a surface, whoever has cited it before."""
+    found = Cited(statement)
+    found.page, found.of = page, of
+    return found
 
 
 @dataclass(frozen=True)

@@ -4,16 +4,23 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
 
-from derive.language.drive import Drive
+from derive.language.drive import Count, Drive
 
 #: A name in C and in a design file.
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+#: The name of a family in a design file.
+FAMILY = re.compile(r"[a-z][a-z0-9]*([-_][a-z0-9]+)*")
 #: What ends a text or a comment of C before its time.
 ENDS = re.compile(r'["\\\n\r]|\*/|/\*')
 
 
 def misnamed(drive: Drive) -> Iterator[str]:
     """What is wrong with the names and texts of a drive."""
+    if wrong := [*_no_texts(drive)]:
+        yield from wrong
+        return
+    if not FAMILY.fullmatch(drive.family):
+        yield f"the family {drive.family!r} is no name in a design file; use small letters, digits and -"
     for what, name in _names(drive):
         if not NAME.fullmatch(name):
             yield f"{what} {name!r} is no name in C; use letters, digits and _"
@@ -43,6 +50,20 @@ def _taken(drive: Drive) -> set[str]:
     """Functions of the description's surfaces, by name."""
     surfaces = {f"flank_{body.name}" for body in drive.bodies} | {f"{r.name}_{r.member}" for r in drive.regions}
     return surfaces | {f"curvature_{name}" for name in surfaces} | {"placement"}
+
+
+def _no_texts(drive: Drive) -> Iterator[str]:
+    """What is no text and has to be one, or no word or count where a design chooses by it."""
+    texts: list[tuple[str, object]] = [("the family", drive.family), *_names(drive), *_texts(drive)]
+    for source in drive.sources:
+        texts += [("the author of a source", source.author), ("the title of a source", source.title)]
+    for what, text in texts:
+        if not isinstance(text, str):
+            yield f"{what} is {text!r}; give a text"
+    chosen: dict[str, object] = {**drive.variant}
+    for key, word in chosen.items():
+        if not isinstance(word, str | Count):
+            yield f"the variant {key!r} is {word!r}; give a word of the design file, or a Count"
 
 
 def _names(drive: Drive) -> Iterator[tuple[str, str]]:

@@ -13,10 +13,11 @@ import sympy as sp
 from derive.language import vectors as v
 from derive.language.chain import Motion, Rz, screw, station
 from derive.language.definitions import Definitions
-from derive.language.origin import cited, joined
+from derive.language.origin import cited, joined, said
 from derive.language.sampled import NEGLIGIBLE, sampled
 from derive.language.symbols import Quantity
 from derive.language.vectors import Number
+from derive.language.written import page_file
 
 #: What a step may be made of.
 StepData: TypeAlias = Motion | v.Vector | Number
@@ -70,7 +71,8 @@ class Surface:
 
     def on(self, *statements: str) -> Self:
         """The same surface, resting on these statements of the record as well."""
-        return replace(self, steps=joined(self.steps, statements))
+        page = page_file()
+        return replace(self, steps=joined(self.steps, [said(statement, self, page) for statement in statements]))
 
     @property
     def rests_on(self) -> tuple[str, ...]:

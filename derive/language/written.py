@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 import re
 import sys
@@ -21,6 +22,28 @@ def remember(*names: str) -> None:
     """Keep the line of the page from which this is called as that of these names."""
     if (frame := _calling()) is not None:
         _places.update(dict.fromkeys(names, (frame.f_code.co_filename, frame.f_lineno)))
+
+
+def made_by_hand() -> str:
+    """The page outside the tree that makes the data object that is being made, itself and not by a word of the
+    language or a page of the tree; or "".
+    """
+    frame = sys._getframe(2)  # pyright: ignore[reportPrivateUsage]
+    made = frame.f_code.co_name == "__post_init__"
+    while made and _makes(frame) and frame.f_back is not None:
+        frame = frame.f_back
+    file = frame.f_code.co_filename
+    return file if made and is_page(file) and not file.startswith(_PAGES) else ""
+
+
+def _makes(frame: FrameType) -> bool:
+    """Whether a frame is one of those that data classes put between an object and what makes it."""
+    return frame.f_code.co_name in ("__post_init__", "__init__") or frame.f_globals["__name__"] == dataclasses.__name__
+
+
+def is_tool(file: str) -> bool:
+    """Whether a file is a generating tool's of the tree."""
+    return file.startswith(_PAGES[0])
 
 
 def page_file() -> str:

@@ -92,11 +92,11 @@ def _tool(body, definitions, sweep, motion, arm, tip_drop, arc_radius=None):
     def surface(section, parameter, outward):
         return swept(
             definitions, section, motion, along=parameter, sweep=sweep, outward=outward, arm=arm(section[0])
-        ).on("spherical_gears/normal")
+        )
 
     half_length = body.edge_offset / sp.cos(body.pressure_angle)
     return RackTool(
-        cutter=surface(_edge_point(body, along), along, body.flank),
+        cutter=surface(_edge_point(body, along), along, body.flank).on("spherical_gears/normal"),
         rounding=surface(_rounding_point(body, turn), turn, -body.flank),
         edge_length=2 * half_length,
         pitch_point=half_length,

@@ -3706,10 +3706,10 @@ static inline void spherical_concave_convex_curvature_flank_wheel(const double *
  *    13 margin_junction
  *    14 margin_bottom
  */
-/* Equations: derivation/swept, spherical_gears/normal, derivation/invariance, derivation/envelope, derivation/explicit,
- *   spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut,
- *   conventions/rotations, conventions/sums, derivation/rotation, derivation/translation, derivation/swing,
- *   derivation/unit, cylindrical_worm/undercut. */
+/* Equations: derivation/swept, derivation/invariance, derivation/envelope, derivation/explicit, spherical_gears/meshing,
+ *   spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut, conventions/rotations,
+ *   conventions/sums, derivation/rotation, derivation/translation, derivation/swing, derivation/unit,
+ *   cylindrical_worm/undercut. */
 static inline void spherical_concave_convex_fillet_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3853,10 +3853,10 @@ static inline void spherical_concave_convex_fillet_pinion(const double *s, const
  *     6 second_form[3], 1/mm
  *     9 curvature[2], 1/mm
  */
-/* Equations: derivation/swept, spherical_gears/normal, derivation/invariance, derivation/envelope, derivation/explicit,
- *   spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut,
- *   conventions/rotations, conventions/sums, derivation/rotation, derivation/translation, derivation/swing,
- *   derivation/unit, cylindrical_worm/undercut, derivation/root, derivation/quotient. */
+/* Equations: derivation/swept, derivation/invariance, derivation/envelope, derivation/explicit, spherical_gears/meshing,
+ *   spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut, conventions/rotations,
+ *   conventions/sums, derivation/rotation, derivation/translation, derivation/swing, derivation/unit,
+ *   cylindrical_worm/undercut, derivation/root, derivation/quotient. */
 static inline void spherical_concave_convex_curvature_fillet_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4080,10 +4080,10 @@ static inline void spherical_concave_convex_curvature_fillet_pinion(const double
  *    13 margin_junction
  *    14 margin_bottom
  */
-/* Equations: derivation/swept, spherical_gears/normal, derivation/invariance, derivation/envelope, derivation/explicit,
- *   spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut,
- *   conventions/rotations, conventions/sums, derivation/rotation, derivation/translation, derivation/swing,
- *   derivation/unit, cylindrical_worm/undercut. */
+/* Equations: derivation/swept, derivation/invariance, derivation/envelope, derivation/explicit, spherical_gears/meshing,
+ *   spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut, conventions/rotations,
+ *   conventions/sums, derivation/rotation, derivation/translation, derivation/swing, derivation/unit,
+ *   cylindrical_worm/undercut. */
 static inline void spherical_concave_convex_fillet_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -4227,10 +4227,10 @@ static inline void spherical_concave_convex_fillet_wheel(const double *s, const 
  *     6 second_form[3], 1/mm
  *     9 curvature[2], 1/mm
  */
-/* Equations: derivation/swept, spherical_gears/normal, derivation/invariance, derivation/envelope, derivation/explicit,
- *   spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut,
- *   conventions/rotations, conventions/sums, derivation/rotation, derivation/translation, derivation/swing,
- *   derivation/unit, cylindrical_worm/undercut, derivation/root, derivation/quotient. */
+/* Equations: derivation/swept, derivation/invariance, derivation/envelope, derivation/explicit, spherical_gears/meshing,
+ *   spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut, conventions/rotations,
+ *   conventions/sums, derivation/rotation, derivation/translation, derivation/swing, derivation/unit,
+ *   cylindrical_worm/undercut, derivation/root, derivation/quotient. */
 static inline void spherical_concave_convex_curvature_fillet_wheel(const double *s, const double *q, double *o)
 {
     (void)s;

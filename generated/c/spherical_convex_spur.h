@@ -3059,10 +3059,10 @@ static inline void spherical_convex_spur_curvature_flank_wheel(const double *s, 
  *    13 margin_junction
  *    14 margin_bottom
  */
-/* Equations: derivation/swept, spherical_gears/normal, derivation/invariance, derivation/envelope, derivation/explicit,
- *   spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut,
- *   conventions/rotations, conventions/sums, derivation/rotation, derivation/translation, derivation/swing,
- *   derivation/unit, cylindrical_worm/undercut. */
+/* Equations: derivation/swept, derivation/invariance, derivation/envelope, derivation/explicit, spherical_gears/meshing,
+ *   spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut, conventions/rotations,
+ *   conventions/sums, derivation/rotation, derivation/translation, derivation/swing, derivation/unit,
+ *   cylindrical_worm/undercut. */
 static inline void spherical_convex_spur_fillet_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3205,10 +3205,10 @@ static inline void spherical_convex_spur_fillet_pinion(const double *s, const do
  *     6 second_form[3], 1/mm
  *     9 curvature[2], 1/mm
  */
-/* Equations: derivation/swept, spherical_gears/normal, derivation/invariance, derivation/envelope, derivation/explicit,
- *   spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut,
- *   conventions/rotations, conventions/sums, derivation/rotation, derivation/translation, derivation/swing,
- *   derivation/unit, cylindrical_worm/undercut, derivation/root, derivation/quotient. */
+/* Equations: derivation/swept, derivation/invariance, derivation/envelope, derivation/explicit, spherical_gears/meshing,
+ *   spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut, conventions/rotations,
+ *   conventions/sums, derivation/rotation, derivation/translation, derivation/swing, derivation/unit,
+ *   cylindrical_worm/undercut, derivation/root, derivation/quotient. */
 static inline void spherical_convex_spur_curvature_fillet_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3433,10 +3433,9 @@ static inline void spherical_convex_spur_curvature_fillet_pinion(const double *s
  *    13 margin_junction
  *    14 margin_bottom
  */
-/* Equations: derivation/swept, spherical_gears/normal, derivation/invariance, derivation/envelope, derivation/explicit,
- *   spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut,
- *   conventions/rotations, conventions/sums, derivation/rotation, derivation/translation, derivation/unit,
- *   cylindrical_worm/undercut. */
+/* Equations: derivation/swept, derivation/invariance, derivation/envelope, derivation/explicit, spherical_gears/meshing,
+ *   spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut, conventions/rotations,
+ *   conventions/sums, derivation/rotation, derivation/translation, derivation/unit, cylindrical_worm/undercut. */
 static inline void spherical_convex_spur_fillet_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
@@ -3522,10 +3521,10 @@ static inline void spherical_convex_spur_fillet_wheel(const double *s, const dou
  *     6 second_form[3], 1/mm
  *     9 curvature[2], 1/mm
  */
-/* Equations: derivation/swept, spherical_gears/normal, derivation/invariance, derivation/envelope, derivation/explicit,
- *   spherical_gears/meshing, spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut,
- *   conventions/rotations, conventions/sums, derivation/rotation, derivation/translation, derivation/unit,
- *   cylindrical_worm/undercut, derivation/root. */
+/* Equations: derivation/swept, derivation/invariance, derivation/envelope, derivation/explicit, spherical_gears/meshing,
+ *   spherical_gears/explicit, spherical_gears/tangent, spherical_gears/undercut, conventions/rotations,
+ *   conventions/sums, derivation/rotation, derivation/translation, derivation/unit, cylindrical_worm/undercut,
+ *   derivation/root. */
 static inline void spherical_convex_spur_curvature_fillet_wheel(const double *s, const double *q, double *o)
 {
     (void)s;

@@ -81,25 +81,13 @@ def test_lost_signs_leave_exactly_one_reading_that_holds(verdicts, key):
     assert verdicts[key].claim.damage
 
 
-@pytest.mark.parametrize(
-    "key",
-    [
-        "helicoid",
-        "rack-form",
-        "eq-1",
-        "eq-2",
-        "eq-3",
-        "eq-5",
-        "psi",
-        "normal-meets-axis",
-        "elimination",
-        "lemma",
-        "planar-limit",
-        "decomposition",
-        "axis-2",
-        "wheel-profile",
-    ],
-)
+RIGHT = (
+    "helicoid", "rack-form", "eq-1", "eq-2", "eq-3", "eq-5", "psi", "normal-meets-axis", "elimination", "lemma",
+    "planar-limit", "decomposition", "axis-2", "wheel-profile",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("key", RIGHT)
 def test_the_rack_and_pinion_paper_is_right_here_for_every_profile(verdicts, key):
     assert verdicts[f"rack-and-pinion/{key}"].status == "proved"
 

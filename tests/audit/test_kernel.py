@@ -110,5 +110,5 @@ def test_translated_names_are_names_of_coq():
     scope = {**empty, "angles": {"I": "I"}, "signs": [], "generators": []}
     value = evaluate(["+", "R", ["cos", "I"], "as"], translate.Written(scope))
     variables = {}
-    translate._collect(value.node, variables)
+    translate.collect(value.node, variables)
     assert set(translate._readable(variables).values()) == {"R_", "cos_I", "as_"}

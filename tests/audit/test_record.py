@@ -15,6 +15,7 @@ from derive.audit.checker.record import read_record
 from derive.audit.provenance import cited, provenance
 from derive.audit.standing import standings
 from derive.drives import catalogue
+from derive.language.chain import Rz
 from derive.passes.schedule import schedule
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -161,3 +162,22 @@ def test_explain_shows_side_conditions_of_function_statement_and_drive(capsys):
     assert "cos(theta_pinion) ≠ 0" in capsys.readouterr().out
     assert command.main(["explain", "face_worm"]) == 0
     assert "derive (" in capsys.readouterr().out
+
+
+def test_a_page_answers_for_what_it_has_put_together_by_hand_and_for_every_statement_that_it_hands_on():
+    """A surface of the tree changed outside it, and one that is given the statements of another, rest on no proof of
+    the tree's page; made further by words of the language alone, it rests on all that it did.
+    """
+    name, here = "helicoids/zn-straight", __file__
+    worm = catalogue()["cylindrical_worm_zn_zn"]().pinion.surface
+    known = standings({name})[name]
+
+    def said(surface):
+        (statement,) = (step for step in surface.steps if step == name)
+        return known.open_for(statement)
+
+    assert not said(worm) and not said(worm.placed(Rz(1))) and not said(worm.turned_over())
+    by_hand = replace(worm, point=(worm.point[0], worm.point[1], 2 * worm.point[2]))
+    other = catalogue()["cylindrical_worm_za_za"]().pinion.surface.on(*worm.steps)
+    for made in (by_hand, by_hand.placed(Rz(1)), other):
+        assert Path(here).name in said(made)

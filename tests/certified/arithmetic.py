@@ -51,6 +51,26 @@ def _text(name):
     return text[: text.rindex("#endif")]
 
 
+def library_of(folder, source, *headers):
+    """The library of a text of C that includes headers of these folders, by default of the runtime."""
+    path, library = folder / "tested.c", folder / "tested.so"
+    path.write_text(source, encoding="utf-8")
+    flags = [f for f in FLAGS if not f.startswith(("-W", "-O"))]
+    command = (*compiler(), *flags, "-O1", *(f"-I{f}" for f in headers or (C,)), "-shared", path, "-o", library, "-lm")
+    subprocess.run([*map(str, command)], check=True)
+    return ctypes.CDLL(str(library))
+
+
+def halved(text):
+    r"""Name → (what a header holds, the same with one error term halved), from lines ``name: … ⟦term⟧ …``.
+
+    ``⟦term → other⟧`` says what stands in its place; ``\n`` is the end of a line.
+    """
+    lines = (line.replace("\\n", "\n").partition(": ") for line in text.strip().splitlines())
+    term = re.compile(r"⟦(.*?)(?: → (.*?))?⟧")
+    return {name: (term.sub(r"\1", held), term.sub(lambda m: m[2] or f"0.5 * {m[1]}", held)) for name, _, held in lines}
+
+
 def compiled(folder, changes=None):
     """Variant → :class:`Arithmetic`: ``exact`` as it is and, for each name in ``changes`` (name → [(text, instead)]),
     the same with these texts of the headers replaced. A text that is not there once is an error.
@@ -66,13 +86,8 @@ def compiled(folder, changes=None):
         for kind in NUMBER:
             for op, type_, call in _calls(kind, prefix):
                 sources.append(_LOOPS.format(v=f"v{number}", kind=kind, op=op, type=type_, call=call))
-    source, library = folder / "arithmetic.c", folder / "arithmetic.so"
-    source.write_text("".join(sources), encoding="utf-8")
-    flags = [f for f in FLAGS if not f.startswith(("-W", "-O"))]
-    command = (*compiler(), *flags, "-O1", f"-I{C}", "-shared", source, "-o", library, "-lm")
-    subprocess.run([*map(str, command)], check=True)
-    loaded = ctypes.CDLL(str(library))
-    return {variant: Arithmetic(loaded, f"v{number}") for number, variant in enumerate(variants)}
+    library = library_of(folder, "".join(sources))
+    return {variant: Arithmetic(library, f"v{number}") for number, variant in enumerate(variants)}
 
 
 class Arithmetic:

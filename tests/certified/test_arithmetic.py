@@ -8,7 +8,9 @@ import flint
 import numpy as np
 import pytest
 
-from tests.certified.arithmetic import C, compiled
+from tests.certified.arithmetic import C, compiled, halved
+
+pytestmark = pytest.mark.usefixtures("many_digits")
 
 COUNT = 250
 U = 2.0**-53
@@ -99,123 +101,37 @@ def numbers(rng, kind, count=COUNT, radii=(-60, -1), least=-3, most=3):
 #: Each error term of the headers, halved. Not among them are those that others always outweigh, by their nature: the
 #: rounding of an arc's last sum (its tangent has the errors of a sine and a cosine), the product of two rests, and the
 #: factors that only make good the rounding of radii.
-HALVED = {
-    "sum": (
-        "MWC_FMA(MWC_U, mwc_abs(m), a.radius + b.radius));\n}\n\nMWI_INLINE mw_ball mwc_sub",
-        "MWC_FMA(0.5 * MWC_U, mwc_abs(m), a.radius + b.radius));\n}\n\nMWI_INLINE mw_ball mwc_sub",
-    ),
-    "radii of a sum": (
-        "MWC_FMA(MWC_U, mwc_abs(m), a.radius + b.radius));\n}\n\nMWI_INLINE mw_ball mwc_sub",
-        "MWC_FMA(MWC_U, mwc_abs(m), 0.5 * (a.radius + b.radius)));\n}\n\nMWI_INLINE mw_ball mwc_sub",
-    ),
-    "difference": (
-        "MWC_FMA(MWC_U, mwc_abs(m), a.radius + b.radius));\n}\n\nMWI_INLINE mw_ball mwc_neg",
-        "MWC_FMA(0.5 * MWC_U, mwc_abs(m), a.radius + b.radius));\n}\n\nMWI_INLINE mw_ball mwc_neg",
-    ),
-    "product": (
-        "rounding = MWC_FMA(MWC_U, mwc_abs(m), MWC_TINY)",
-        "rounding = MWC_FMA(0.5 * MWC_U, mwc_abs(m), MWC_TINY)",
-    ),
-    "product, first": (
-        "MWC_FMA(mwc_abs(a.mid), b.radius, MWC_FMA(",
-        "MWC_FMA(0.5 * mwc_abs(a.mid), b.radius, MWC_FMA(",
-    ),
-    "product, second": (
-        "MWC_FMA(MWC_READ, b.radius, mwc_abs(b.mid)), rounding",
-        "MWC_FMA(MWC_READ, b.radius, 0.5 * mwc_abs(b.mid)), rounding",
-    ),
-    "product of radii": (
-        "MWC_FMA(MWC_READ, b.radius, mwc_abs(b.mid)), rounding",
-        "MWC_FMA(0.5 * MWC_READ, b.radius, mwc_abs(b.mid)), rounding",
-    ),
-    "square": (
-        "MWC_FMA(MWC_U, m, MWC_TINY)",
-        "MWC_FMA(0.5 * MWC_U, m, MWC_TINY)",
-    ),
-    "square, first": (
-        "2.0 * mwc_abs(a.mid) + mwc_reach(a), ",
-        "mwc_abs(a.mid) + mwc_reach(a), ",
-    ),
-    "square, second": (
-        "2.0 * mwc_abs(a.mid) + mwc_reach(a), ",
-        "2.0 * mwc_abs(a.mid) + 0.5 * mwc_reach(a), ",
-    ),
-    "underflow": (
-        "MWC_TINY = 9.881312916824931e-324",
-        "MWC_TINY = 4.9406564584124654e-324",
-    ),
-    "quotient": (
-        "spread + (MWC_U * mwc_abs(q) + MWC_TINY)",
-        "spread + (0.5 * MWC_U * mwc_abs(q) + MWC_TINY)",
-    ),
-    "quotient, divisor": (
-        "mwc_abs(q) * (1.0 + 4.0 * MWC_U) * b.radius",
-        "0.5 * mwc_abs(q) * b.radius",
-    ),
-    "quotient, dividend": (
-        "* b.radius + a.radius) / (least",
-        "* b.radius + 0.5 * a.radius) / (least",
-    ),
-    "quotient, least divisor": (
-        "least = mwc_abs(b.mid) - mwc_reach(b);",
-        "least = mwc_abs(b.mid) - 0.5 * mwc_reach(b);",
-    ),
-    "root": (
-        "/ root + MWC_U * root",
-        "/ root + 0.5 * MWC_U * root",
-    ),
-    "root, radius": (
-        "a.radius * (1.0 + 8.0 * MWC_U) / root",
-        "0.5 * a.radius / root",
-    ),
-    "sine": (
-        "MWC_SINE = 2.220446049250313e-16",
-        "MWC_SINE = 1.1102230246251565e-16",
-    ),
-    "sine, slope": (
-        "turn.sine = mwc_where(near, s, (mwc_abs(c) + MWC_SINE) * a.radius",
-        "turn.sine = mwc_where(near, s, 0.5 * mwc_abs(c) * a.radius",
-    ),
-    "sine, bend": (
-        "bend = 0.5 * a.radius * mwc_reach(a)",
-        "bend = 0.25 * a.radius * mwc_reach(a)",
-    ),
-    "cosine, slope": (
-        "turn.cosine = mwc_where(near, c, (mwc_abs(s) + MWC_SINE) * a.radius",
-        "turn.cosine = mwc_where(near, c, 0.5 * mwc_abs(s) * a.radius",
-    ),
-    "arc, radius": (
-        "d.radius + MWC_FMA(MWC_U, mwc_abs(m), cube)",
-        "0.5 * d.radius + MWC_FMA(MWC_U, mwc_abs(m), cube)",
-    ),
-    "wide sum": (
-        "(a.radius + b.radius) + MWC_U * (mwc_abs(c) + mwc_abs(low))",
-        "(a.radius + b.radius) + 0.5 * MWC_U * (mwc_abs(c) + mwc_abs(low))",
-    ),
-    "wide product": (
-        "MWC_U * (mwc_abs(c) + mwc_abs(d) + mwc_abs(cross) + mwc_abs(low))",
-        "0.5 * MWC_U * (mwc_abs(c) + mwc_abs(d) + mwc_abs(cross) + mwc_abs(low))",
-    ),
-    "wide quotient": (
-        "left / (least * (1.0 - 8.0 * MWC_U))",
-        "0.5 * left / least",
-    ),
-    "wide root": (
-        "joined(s.hi, s.lo, left / least)",
-        "joined(s.hi, s.lo, 0.5 * left / least)",
-    ),
-    "wide sine, slope": (
-        "by_sine = mwc_wide_most(*cosine) * d + 0.5 * d * d",
-        "by_sine = 0.5 * mwc_wide_most(*cosine) * d + 0.5 * d * d",
-    ),
-}
-
-
-@pytest.fixture(autouse=True)
-def many_digits():
-    before, flint.ctx.prec = flint.ctx.prec, 300
-    yield
-    flint.ctx.prec = before
+HALVED = halved(
+    r"""
+sum: MWC_FMA(⟦MWC_U⟧, mwc_abs(m), a.radius + b.radius));\n}\n\nMWI_INLINE mw_ball mwc_sub
+radii of a sum: mwc_abs(m), ⟦a.radius + b.radius → 0.5 * (a.radius + b.radius)⟧));\n}\n\nMWI_INLINE mw_ball mwc_sub
+difference: MWC_FMA(⟦MWC_U⟧, mwc_abs(m), a.radius + b.radius));\n}\n\nMWI_INLINE mw_ball mwc_neg
+product: rounding = MWC_FMA(⟦MWC_U⟧, mwc_abs(m), MWC_TINY)
+product, first: MWC_FMA(⟦mwc_abs(a.mid)⟧, b.radius, MWC_FMA(
+product, second: MWC_FMA(MWC_READ, b.radius, ⟦mwc_abs(b.mid)⟧), rounding
+product of radii: MWC_FMA(⟦MWC_READ⟧, b.radius, mwc_abs(b.mid)), rounding
+square: MWC_FMA(⟦MWC_U⟧, m, MWC_TINY)
+square, first: ⟦2.0 * mwc_abs → mwc_abs⟧(a.mid) + mwc_reach(a),
+square, second: 2.0 * mwc_abs(a.mid) + ⟦mwc_reach(a)⟧,
+underflow: MWC_TINY = ⟦9.881312916824931e-324 → 4.9406564584124654e-324⟧
+quotient: spread + (⟦MWC_U⟧ * mwc_abs(q) + MWC_TINY)
+quotient, divisor: ⟦mwc_abs(q) * (1.0 + 4.0 * MWC_U) → 0.5 * mwc_abs(q)⟧ * b.radius
+quotient, dividend: * b.radius + ⟦a.radius⟧) / (least
+quotient, least divisor: least = mwc_abs(b.mid) - ⟦mwc_reach(b)⟧;
+root: / root + ⟦MWC_U⟧ * root
+root, radius: ⟦a.radius * (1.0 + 8.0 * MWC_U) → 0.5 * a.radius⟧ / root
+sine: MWC_SINE = ⟦2.220446049250313e-16 → 1.1102230246251565e-16⟧
+sine, slope: turn.sine = mwc_where(near, s, ⟦(mwc_abs(c) + MWC_SINE) → 0.5 * mwc_abs(c)⟧ * a.radius
+sine, bend: bend = ⟦0.5 → 0.25⟧ * a.radius * mwc_reach(a)
+cosine, slope: turn.cosine = mwc_where(near, c, ⟦(mwc_abs(s) + MWC_SINE) → 0.5 * mwc_abs(s)⟧ * a.radius
+arc, radius: ⟦d.radius⟧ + MWC_FMA(MWC_U, mwc_abs(m), cube)
+wide sum: (a.radius + b.radius) + ⟦MWC_U⟧ * (mwc_abs(c) + mwc_abs(low))
+wide product: ⟦MWC_U⟧ * (mwc_abs(c) + mwc_abs(d) + mwc_abs(cross) + mwc_abs(low))
+wide quotient: ⟦left / (least * (1.0 - 8.0 * MWC_U)) → 0.5 * left / least⟧
+wide root: joined(s.hi, s.lo, ⟦left⟧ / least)
+wide sine, slope: by_sine = ⟦mwc_wide_most(*cosine)⟧ * d + 0.5 * d * d
+"""
+)
 
 
 @pytest.fixture(scope="module")

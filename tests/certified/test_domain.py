@@ -3,17 +3,16 @@ no error term could be smaller by half.
 """
 
 import ctypes
-import subprocess
 from fractions import Fraction
 
-import flint
 import numpy as np
 import pytest
 
-from meshwright.base.compile import FLAGS, compiler
-from tests.certified.arithmetic import C
+from tests.certified.arithmetic import C, halved, library_of
 from tests.certified.test_arithmetic import cases, misses, numbers
 from tests.certified.test_proof import LANES, D, N, systems
+
+pytestmark = pytest.mark.usefixtures("many_digits")
 
 #: Operations of a harness that takes balls: the middle is that of the ball, the radius what is tested.
 OPERATIONS = {
@@ -78,211 +77,57 @@ void settle_{lanes}(const double *d, const double *wide, const double *R, const 
 #: of its middle, which is far below its bound, factors that only make good the rounding of radii, and in the test the
 #: share of an elimination's rounding, to which no elimination comes near.
 HALVED = {
-    "add radii": (
-        "units.h",
-        "(ra + rb) + mwc_abs(m)",
-        "0.5 * (ra + rb) + mwc_abs(m)",
-    ),
-    "add rounding": (
-        "units.h",
-        "(ra + rb) + mwc_abs(m)",
-        "(ra + rb) + 0.5 * mwc_abs(m)",
-    ),
-    "rounded": (
-        "units.h",
-        "return mwc_abs(m) + MWC_UNITS_TINY;",
-        "return 0.5 * mwc_abs(m) + MWC_UNITS_TINY;",
-    ),
-    "share": (
-        "units.h",
-        "MWC_FMA(mwc_abs(a), rb, mwc_units_rounded(m))",
-        "MWC_FMA(0.5 * mwc_abs(a), rb, mwc_units_rounded(m))",
-    ),
-    "scaled first": (
-        "units.h",
-        "MWC_FMA(mwc_abs(a), rb, MWC_FMA(ra",
-        "MWC_FMA(0.5 * mwc_abs(a), rb, MWC_FMA(ra",
-    ),
-    "scaled second": (
-        "units.h",
-        "MWC_FMA(ra, most,",
-        "MWC_FMA(ra, 0.5 * most,",
-    ),
-    "mul second": (
-        "units.h",
-        "MWC_FMA(MWC_UNITS_READ, rb, mwc_abs(b)), rb",
-        "MWC_FMA(MWC_UNITS_READ, rb, 0.5 * mwc_abs(b)), rb",
-    ),
-    "mul radii": (
-        "units.h",
-        "MWC_FMA(MWC_UNITS_READ, rb, mwc_abs(b)), rb",
-        "MWC_FMA(0.5 * MWC_UNITS_READ, rb, mwc_abs(b)), rb",
-    ),
-    "sqr first": (
-        "units.h",
-        "2.0 * mwc_abs(a) + MWC_UNITS_READ * ra",
-        "mwc_abs(a) + MWC_UNITS_READ * ra",
-    ),
-    "sqr second": (
-        "units.h",
-        "2.0 * mwc_abs(a) + MWC_UNITS_READ * ra",
-        "2.0 * mwc_abs(a) + 0.5 * MWC_UNITS_READ * ra",
-    ),
-    "div divisor": (
-        "units.h",
-        "mwc_abs(m) * (1.0 + 4.0 * MWC_U) * rb",
-        "0.5 * mwc_abs(m) * rb",
-    ),
-    "div dividend": (
-        "units.h",
-        "* rb + ra)",
-        "* rb + 0.5 * ra)",
-    ),
-    "div least": (
-        "units.h",
-        "mwc_abs(b) - MWC_UNITS_READ * rb",
-        "mwc_abs(b) - 0.5 * MWC_UNITS_READ * rb",
-    ),
-    "div rounding": (
-        "units.h",
-        "spread + mwc_units_rounded(m)",
-        "spread + 0.5 * mwc_units_rounded(m)",
-    ),
-    "sqrt radius": (
-        "units.h",
-        "ra * (1.0 + 8.0 * MWC_U) / m",
-        "0.5 * ra / m",
-    ),
-    "sqrt rounding": (
-        "units.h",
-        "/ m + mwc_abs(m)",
-        "/ m + 0.5 * mwc_abs(m)",
-    ),
-    "sine slope": (
-        "units.h",
-        "(mwc_abs(slope) + MWC_SINE) + bend",
-        "0.5 * mwc_abs(slope) + bend",
-    ),
-    "sine bend": (
-        "units.h",
-        "bend = 0.5 * MWC_UNITS_READ",
-        "bend = 0.25 * MWC_UNITS_READ",
-    ),
-    "sine rounding": (
-        "units.h",
-        "2.0 * size + MWC_UNITS_TINY",
-        "size + MWC_UNITS_TINY",
-    ),
-    "bound add radii": (
-        "domain.h",
-        "a.radius + b.radius + MWC_U * most",
-        "0.5 * (a.radius + b.radius) + MWC_U * most",
-    ),
-    "bound add rounding": (
-        "domain.h",
-        "a.radius + b.radius + MWC_U * most",
-        "a.radius + b.radius + 0.5 * MWC_U * most",
-    ),
-    "bound mul first": (
-        "domain.h",
-        "a.most * b.radius + a.radius",
-        "0.5 * a.most * b.radius + a.radius",
-    ),
-    "bound mul second": (
-        "domain.h",
-        "(b.most + mwc_bound_reach(b))",
-        "(0.5 * b.most + mwc_bound_reach(b))",
-    ),
-    "bound mul radii": (
-        "domain.h",
-        "(b.most + mwc_bound_reach(b))",
-        "(b.most + 0.5 * mwc_bound_reach(b))",
-    ),
-    "bound mul rounding": (
-        "domain.h",
-        "+ (MWC_U * most + MWC_TINY));\n}\n\nMWI_INLINE mwc_bound mwc_bound_quotient",
-        "+ (0.5 * MWC_U * most + MWC_TINY));\n}\n\nMWI_INLINE mwc_bound mwc_bound_quotient",
-    ),
-    "bound div divisor": (
-        "domain.h",
-        "(most * b.radius + a.radius) / (rest",
-        "(0.5 * most * b.radius + a.radius) / (rest",
-    ),
-    "bound div dividend": (
-        "domain.h",
-        "(most * b.radius + a.radius) / (rest",
-        "(most * b.radius + 0.5 * a.radius) / (rest",
-    ),
-    "bound div least": (
-        "domain.h",
-        "rest = least - mwc_bound_reach(b), most",
-        "rest = least - 0.5 * mwc_bound_reach(b), most",
-    ),
-    "bound div rounding": (
-        "domain.h",
-        "spread + (MWC_U * most",
-        "spread + (0.5 * MWC_U * most",
-    ),
-    "bound sqrt radius": (
-        "domain.h",
-        "a.radius * (1.0 + 8.0 * MWC_U) / sqrt(least)",
-        "0.5 * a.radius / sqrt(least)",
-    ),
-    "bound sqrt rounding": (
-        "domain.h",
-        "/ sqrt(least) + MWC_U * most",
-        "/ sqrt(least) + 0.5 * MWC_U * most",
-    ),
-    "bound sine radius": (
-        "domain.h",
-        "a.radius + (MWC_SINE * size + MWC_TINY)",
-        "0.5 * a.radius + (MWC_SINE * size + MWC_TINY)",
-    ),
-    "bound sine rounding": (
-        "domain.h",
-        "a.radius + (MWC_SINE * size + MWC_TINY)",
-        "a.radius + (0.5 * MWC_SINE * size + MWC_TINY)",
-    ),
-    "bound sine, cosine": (
-        "domain.h",
-        "a.radius * (slope < 1.0 ? slope : 1.0)",
-        "0.5 * a.radius * (slope < 1.0 ? slope : 1.0)",
-    ),
-    "bound sine, size": (
-        "domain.h",
-        "const double slope = a.most + mwc_bound_reach(a);",
-        "const double slope = 0.5 * a.most + mwc_bound_reach(a);",
-    ),
-    "bound atan2 radius": (
-        "domain.h",
-        "off / (rest * (1.0 - 8.0 * MWC_U))",
-        "0.5 * off / rest",
-    ),
-    "bound sign": (
-        "domain.h",
-        "least - mwc_bound_reach(a) > 0.0, 1.0",
-        "least - 0.5 * mwc_bound_reach(a) > 0.0, 1.0",
-    ),
-    "settle residual": (
-        "settle.h",
-        "MWC_FMA(MWC_UNITS_READ, entry.radius",
-        "MWC_FMA(0.5 * MWC_UNITS_READ, entry.radius",
-    ),
-    "settle shift": (
-        "settle.h",
-        "e[l] += mwc_abs(sum[l]);",
-        "e[l] += 0.5 * mwc_abs(sum[l]);",
-    ),
-    "settle Jacobian": (
-        "settle.h",
-        "MWC_FMA(part[l], bound, off[k][l])",
-        "MWC_FMA(0.5 * part[l], bound, off[k][l])",
-    ),
-    "settle image": (
-        "settle.h",
-        "above[l], of->wide[i] + most[i][l]);",
-        "above[l], 0.5 * of->wide[i] + most[i][l]);",
-    ),
+    term: (header, *change)
+    for header, terms in {
+        "units.h": """
+add radii: ⟦(ra + rb)⟧ + mwc_abs(m)
+add rounding: (ra + rb) + ⟦mwc_abs(m)⟧
+rounded: return ⟦mwc_abs(m)⟧ + MWC_UNITS_TINY;
+share: MWC_FMA(⟦mwc_abs(a)⟧, rb, mwc_units_rounded(m))
+scaled first: MWC_FMA(⟦mwc_abs(a)⟧, rb, MWC_FMA(ra
+scaled second: MWC_FMA(ra, ⟦most⟧,
+mul second: MWC_FMA(MWC_UNITS_READ, rb, ⟦mwc_abs(b)⟧), rb
+mul radii: MWC_FMA(⟦MWC_UNITS_READ⟧, rb, mwc_abs(b)), rb
+sqr first: ⟦2.0 * mwc_abs → mwc_abs⟧(a) + MWC_UNITS_READ * ra
+sqr second: 2.0 * mwc_abs(a) + ⟦MWC_UNITS_READ⟧ * ra
+div divisor: ⟦mwc_abs(m) * (1.0 + 4.0 * MWC_U) → 0.5 * mwc_abs(m)⟧ * rb
+div dividend: * rb + ⟦ra⟧)
+div least: mwc_abs(b) - ⟦MWC_UNITS_READ⟧ * rb
+div rounding: spread + ⟦mwc_units_rounded(m)⟧
+sqrt radius: ⟦ra * (1.0 + 8.0 * MWC_U) → 0.5 * ra⟧ / m
+sqrt rounding: / m + ⟦mwc_abs(m)⟧
+sine slope: ⟦(mwc_abs(slope) + MWC_SINE) → 0.5 * mwc_abs(slope)⟧ + bend
+sine bend: bend = ⟦0.5 → 0.25⟧ * MWC_UNITS_READ
+sine rounding: ⟦2.0 * size → size⟧ + MWC_UNITS_TINY
+""",
+        "domain.h": r"""
+bound add radii: ⟦a.radius + b.radius → 0.5 * (a.radius + b.radius)⟧ + MWC_U * most
+bound add rounding: a.radius + b.radius + ⟦MWC_U⟧ * most
+bound mul first: ⟦a.most⟧ * b.radius + a.radius
+bound mul second: (⟦b.most⟧ + mwc_bound_reach(b))
+bound mul radii: (b.most + ⟦mwc_bound_reach(b)⟧)
+bound mul rounding: + (⟦MWC_U⟧ * most + MWC_TINY));\n}\n\nMWI_INLINE mwc_bound mwc_bound_quotient
+bound div divisor: (⟦most⟧ * b.radius + a.radius) / (rest
+bound div dividend: (most * b.radius + ⟦a.radius⟧) / (rest
+bound div least: rest = least - ⟦mwc_bound_reach(b)⟧, most
+bound div rounding: spread + (⟦MWC_U⟧ * most
+bound sqrt radius: ⟦a.radius * (1.0 + 8.0 * MWC_U) → 0.5 * a.radius⟧ / sqrt(least)
+bound sqrt rounding: / sqrt(least) + ⟦MWC_U⟧ * most
+bound sine radius: ⟦a.radius⟧ + (MWC_SINE * size + MWC_TINY)
+bound sine rounding: a.radius + (⟦MWC_SINE⟧ * size + MWC_TINY)
+bound sine, cosine: ⟦a.radius⟧ * (slope < 1.0 ? slope : 1.0)
+bound sine, size: const double slope = ⟦a.most⟧ + mwc_bound_reach(a);
+bound atan2 radius: ⟦off / (rest * (1.0 - 8.0 * MWC_U)) → 0.5 * off / rest⟧
+bound sign: least - ⟦mwc_bound_reach(a)⟧ > 0.0, 1.0
+""",
+        "settle.h": """
+settle residual: MWC_FMA(⟦MWC_UNITS_READ⟧, entry.radius
+settle shift: e[l] += ⟦mwc_abs(sum[l])⟧;
+settle Jacobian: MWC_FMA(⟦part[l]⟧, bound, off[k][l])
+settle image: above[l], ⟦of->wide[i]⟧ + most[i][l]);
+""",
+    }.items()
+    for term, change in halved(terms).items()
 }
 
 
@@ -309,12 +154,7 @@ def compiled(folder, change=None):
     for lanes in LANES:
         text = f'#include "certify/settle.h"\n{_SETTLE.format(lanes=lanes, n=N)}'
         parts.append(f"#define MW_LANES {lanes}\n{text}#undef MW_LANES\n")
-    source, library = folder / "domain.c", folder / "domain.so"
-    source.write_text("".join(parts), encoding="utf-8")
-    flags = [f for f in FLAGS if not f.startswith(("-W", "-O"))]
-    command = (*compiler(), *flags, "-O1", f"-I{folder}", "-shared", source, "-o", library, "-lm")
-    subprocess.run([*map(str, command)], check=True)
-    return ctypes.CDLL(str(library))
+    return library_of(folder, "".join(parts), folder)
 
 
 class Radii:
@@ -405,13 +245,6 @@ def wrong(loaded, lanes, seed, decoupled):
             outside = any(abs(x) > Fraction(float(side)) for x, side in zip(exact[k], d, strict=True))
             off += outside or abs(exact[k][N - 1]) > Fraction(float(e[k]))
     return shown, off
-
-
-@pytest.fixture(autouse=True)
-def many_digits():
-    before, flint.ctx.prec = flint.ctx.prec, 300
-    yield
-    flint.ctx.prec = before
 
 
 @pytest.fixture(scope="module")

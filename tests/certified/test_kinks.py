@@ -1,7 +1,6 @@
 """Kinks of flanks, where a relief begins: what is continuous there is told from what jumps, and paths go through."""
 
 import ctypes
-import subprocess
 
 import numpy as np
 import pytest
@@ -12,12 +11,11 @@ from derive.language.choice import excess, unit_step
 from derive.passes.quotients import reciprocals
 from derive.program.routine import routine
 from meshwright import Drive
-from meshwright.base.compile import FLAGS, compiler
 from meshwright.base.library import ffi, library
 from meshwright.contact.analysis import trace
 from meshwright.contact.certified_path import certified_path
 from meshwright.contact.results import ARCSEC
-from tests.certified.arithmetic import C
+from tests.certified.arithmetic import library_of
 from tests.derive.small import lowered, x, y
 
 _SOURCE = """
@@ -44,13 +42,7 @@ JUMPING = (
 @pytest.fixture(scope="module")
 def continuous(tmp_path_factory):
     """Whether the function of x and y with a kink is shown to be continuous."""
-    folder = tmp_path_factory.mktemp("kinks")
-    source, shared = folder / "kinks.c", folder / "kinks.so"
-    source.write_text(_SOURCE, encoding="utf-8")
-    flags = [f for f in FLAGS if not f.startswith(("-W", "-O"))]
-    command = (*compiler(), *flags, "-O1", f"-I{C}", "-shared", source, "-o", shared, "-lm")
-    subprocess.run([*map(str, command)], check=True)
-    loaded = ctypes.CDLL(str(shared))
+    loaded = library_of(tmp_path_factory.mktemp("kinks"), _SOURCE)
 
     def shown(*expressions):
         tape, lower, nodes = lowered(*expressions)

@@ -1,16 +1,16 @@
 """Every operation on polynomials with an error bound holds every function that its arguments hold, exactly judged."""
 
 import ctypes
-import subprocess
 from fractions import Fraction
 
 import flint
 import numpy as np
 import pytest
 
-from meshwright.base.compile import FLAGS, compiler
-from tests.certified.arithmetic import C
+from tests.certified.arithmetic import C, halved, library_of
 from tests.certified.test_arithmetic import arb
+
+pytestmark = pytest.mark.usefixtures("many_digits")
 
 ORDER, COUNT = 8, 25
 BINARY, UNARY = ("add", "sub", "mul", "div", "atan2"), ("sqr", "neg", "sqrt", "magnitude", "sincos")
@@ -25,20 +25,21 @@ void run_{op}(int n, const mw_polynomial *a, const mw_polynomial *b, mw_polynomi
 
 #: Error terms, halved. Not among them are the tails of series, which roundings outweigh, and the factors that only make
 #: good the rounding of radii.
-_TERMS = {
-    "add": ("a.radius = ((a.radius + b.radius) + ", "MWC_U * rounded)"),
-    "add, radii": ("a.radius = (", "(a.radius + b.radius) + MWC_U"),
-    "mul": ("beyond + (", "MWC_U * rounded"),
-    "mul, powers beyond the last": ("spread + ", "beyond +"),
-    "mul, first": ("spread = ", "mwc_poly_part(&a, 0) * b.radius"),
-    "mul, second": ("a.radius * (", "mwc_poly_part(&b, 0) + b.radius)"),
-    "mul, radii": ("a.radius * (mwc_poly_part(&b, 0) + ", "b.radius)"),
-    "div": ("q.radius = least > 0.0 ? ", "mwc_poly_most(&left)"),
-    "sqrt": ("mwc_poly_least(&a) > 0.0 && least > 0.0 ? ", "mwc_poly_most(&left)"),
-    "sincos, sine": ("sine->radius = (sine->radius + ", "radius)"),
-    "sincos, cosine": ("cosine->radius = (cosine->radius + ", "radius)"),
-}
-HALVED = {name: (before + term, f"{before}0.5 * {term}") for name, (before, term) in _TERMS.items()}
+HALVED = halved(
+    """
+add: a.radius = ((a.radius + b.radius) + ⟦MWC_U⟧ * rounded)
+add, radii: a.radius = (⟦(a.radius + b.radius)⟧ + MWC_U
+mul: beyond + (⟦MWC_U⟧ * rounded
+mul, powers beyond the last: spread + ⟦beyond⟧ +
+mul, first: spread = ⟦mwc_poly_part(&a, 0)⟧ * b.radius
+mul, second: a.radius * (⟦mwc_poly_part(&b, 0)⟧ + b.radius)
+mul, radii: a.radius * (mwc_poly_part(&b, 0) + ⟦b.radius⟧)
+div: q.radius = least > 0.0 ? ⟦mwc_poly_most(&left)⟧
+sqrt: mwc_poly_least(&a) > 0.0 && least > 0.0 ? ⟦mwc_poly_most(&left)⟧
+sincos, sine: sine->radius = (sine->radius + ⟦radius⟧)
+sincos, cosine: cosine->radius = (cosine->radius + ⟦radius⟧)
+"""
+)
 
 
 def compiled(folder, replaced=None):
@@ -51,13 +52,8 @@ def compiled(folder, replaced=None):
     calls = [(op, f"r[k] = mwc_poly_{op}(a[k], b[k])") for op in BINARY]
     calls += [(op, f"r[k] = mwc_poly_{op}(a[k])") for op in UNARY[:-1]]
     calls.append(("sincos", "mwc_poly_sincos(a[k], &r[k], &s[k])"))
-    source, library = folder / "polynomial.c", folder / "polynomial.so"
     loops = "".join(_LOOP.format(op=op, call=call) for op, call in calls)
-    source.write_text(f"#include <stddef.h>\n{text}{loops}", encoding="utf-8")
-    flags = [f for f in FLAGS if not f.startswith(("-W", "-O"))]
-    command = (*compiler(), *flags, "-O1", f"-I{C}", "-shared", source, "-o", library, "-lm")
-    subprocess.run([*map(str, command)], check=True)
-    return ctypes.CDLL(str(library))
+    return library_of(folder, f"#include <stddef.h>\n{text}{loops}")
 
 
 def run(loaded, op, a, b):
@@ -132,13 +128,6 @@ def cases(rng):
     yield "sincos", near, near
     near[:, 0] = np.pi / 2
     yield "sincos", near, near
-
-
-@pytest.fixture(autouse=True)
-def many_digits():
-    before, flint.ctx.prec = flint.ctx.prec, 300
-    yield
-    flint.ctx.prec = before
 
 
 def test_every_operation_holds_the_exact_results(tmp_path):

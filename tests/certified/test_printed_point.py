@@ -3,15 +3,13 @@ what ``domain.h`` looks at in the table's order: its bounds, found by the table,
 """
 
 import ctypes
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.base.compile import FLAGS, compiler
-from tests.certified.arithmetic import C
+from tests.certified.arithmetic import C, library_of
 
 D = ctypes.POINTER(ctypes.c_double)
 GENERATED = Path(__file__).resolve().parents[2] / "generated" / "c"
@@ -86,12 +84,7 @@ void at_point(const double *s, const double *t, const double *x, const int *rows
 
 def compiled(folder, description):
     name, unknowns = description["name"], len(description["unknowns"])
-    source, library = folder / f"{name}.c", folder / f"{name}.so"
-    source.write_text(_SOURCE.format(drive=name, unknowns=unknowns), encoding="utf-8")
-    flags = [f for f in FLAGS if not f.startswith(("-W", "-O"))]
-    command = (*compiler(), *flags, "-O1", f"-I{C}", f"-I{GENERATED}", "-shared", source, "-o", library, "-lm")
-    subprocess.run([*map(str, command)], check=True)
-    return ctypes.CDLL(str(library))
+    return library_of(folder, _SOURCE.format(drive=name, unknowns=unknowns), C, GENERATED)
 
 
 def pointer(array):

@@ -1,14 +1,12 @@
 """Krawczyk's test on linear systems whose solutions are known exactly, in one lane and in several."""
 
 import ctypes
-import subprocess
 from fractions import Fraction
 
 import numpy as np
 import pytest
 
-from meshwright.base.compile import FLAGS, compiler
-from tests.certified.arithmetic import C
+from tests.certified.arithmetic import C, halved, library_of
 
 N, D = 5, ctypes.POINTER(ctypes.c_double)
 LANES = (1, 4)
@@ -23,20 +21,13 @@ void prove_{lanes}(const double *R, const double *J, const double *d, double *pr
 
 #: Error terms of the test, halved. The bound of a sum of many products is not among them, as no such sum comes near it,
 #: nor what doubles find for |I - C J|, which that bound outweighs.
-HALVED = {
-    "residual": (
-        "off[k][l] = MWC_FMA(MWC_READ, entry.radius,",
-        "off[k][l] = MWC_FMA(0.5, entry.radius,",
-    ),
-    "Jacobian": (
-        "w[i][l] = MWC_FMA(MWC_READ, entry.radius,",
-        "w[i][l] = MWC_FMA(0.5, entry.radius,",
-    ),
-    "shift": (
-        "z[i][l] = (mwc_abs(sum[l]) + radius[l]) * MWC_READ;",
-        "z[i][l] = (0.5 * mwc_abs(sum[l]) + radius[l]) * MWC_READ;",
-    ),
-}
+HALVED = halved(
+    """
+residual: off[k][l] = MWC_FMA(⟦MWC_READ → 0.5⟧, entry.radius,
+Jacobian: w[i][l] = MWC_FMA(⟦MWC_READ → 0.5⟧, entry.radius,
+shift: z[i][l] = (⟦mwc_abs(sum[l])⟧ + radius[l]) * MWC_READ;
+"""
+)
 
 
 def compiled(folder, replaced=()):
@@ -45,16 +36,11 @@ def compiled(folder, replaced=()):
     for old, new in [replaced] if replaced else []:
         assert text.count(old) == 1, old
         text = text.replace(old, new)
-    source, library = folder / "proof.c", folder / "proof.so"
     parts = ['#include "certify/lane.h"\n']
     for lanes in LANES:
         parts.append(f"#define MW_LANES {lanes}\n{text}\n{_PROVE.format(lanes=lanes, n=N)}\n#undef MW_LANES\n")
-    source.write_text("".join(parts), encoding="utf-8")
-    flags = [f for f in FLAGS if not f.startswith(("-W", "-O"))]
-    command = (*compiler(), *flags, "-O1", f"-I{C}", "-shared", source, "-o", library, "-lm")
-    subprocess.run([*map(str, command)], check=True)
-    loaded = ctypes.CDLL(str(library))
-    return {lanes: getattr(loaded, f"prove_{lanes}") for lanes in LANES}
+    library = library_of(folder, "".join(parts))
+    return {lanes: getattr(library, f"prove_{lanes}") for lanes in LANES}
 
 
 def proved(functions, lanes, R, J, d):

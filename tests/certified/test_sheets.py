@@ -1,17 +1,16 @@
 """Every operation on polynomials of three variables holds every function that its arguments hold, exactly judged."""
 
 import ctypes
-import subprocess
 from fractions import Fraction
 
-import flint
 import numpy as np
 import pytest
 
-from meshwright.base.compile import FLAGS, compiler
-from tests.certified.arithmetic import C
+from tests.certified.arithmetic import C, halved, library_of
 from tests.certified.test_arithmetic import arb
 from tests.certified.test_polynomials import BALLS, BINARY, EXACT, UNARY, outside
+
+pytestmark = pytest.mark.usefixtures("many_digits")
 
 COUNT, TERMS = 25, [(d - j, j, k) for k in range(5) for d in range(5 - k) for j in range(d + 1)]
 
@@ -29,21 +28,22 @@ void run_{op}(int n, const mwc_sheet *a, const mwc_sheet *b, mwc_sheet *r, mwc_s
 
 #: Error terms, halved: as of the polynomials of one variable. The bound of a sum of rounded products is twice what its
 #: terms come to at their worst, so it is left out, as are the tails of series.
-_TERMS = {
-    "add": ("r->radius = (radii + ", "MWC_U * mwc_sheet_size(r->c))"),
-    "add, radii": ("r->radius = (", "radii + MWC_U"),
-    "mul, degrees beyond the last": ("spread + ", "beyond +"),
-    "mul, first": ("spread = ", "size * b->radius"),
-    "mul, second": ("a->radius * (", "other + b->radius)"),
-    "mul, radii": ("a->radius * (other + ", "b->radius)"),
-    "mul, by a number": ("spread = mwc_sheet_part(a, 0) * radius + ", "a->radius * (mwc_abs(by) + radius)"),
-    "mul, by a number within a radius": ("spread = ", "mwc_sheet_part(a, 0) * radius"),
-    "div": ("q.radius = least > 0.0 ? ", "mwc_sheet_most(&left)"),
-    "sqrt": ("s.radius = defined ? ", "mwc_sheet_most(&left)"),
-    "sincos, sine": ("sine->radius = (sine->radius + ", "radius)"),
-    "sincos, cosine": ("cosine->radius = (cosine->radius + ", "radius)"),
-}
-HALVED = {name: (before + term, f"{before}0.5 * {term}") for name, (before, term) in _TERMS.items()}
+HALVED = halved(
+    """
+add: r->radius = (radii + ⟦MWC_U⟧ * mwc_sheet_size(r->c))
+add, radii: r->radius = (⟦radii⟧ + MWC_U
+mul, degrees beyond the last: spread + ⟦beyond⟧ +
+mul, first: spread = ⟦size⟧ * b->radius
+mul, second: a->radius * (⟦other⟧ + b->radius)
+mul, radii: a->radius * (other + ⟦b->radius⟧)
+mul, by a number: spread = mwc_sheet_part(a, 0) * radius + ⟦a->radius⟧ * (mwc_abs(by) + radius)
+mul, by a number within a radius: spread = ⟦mwc_sheet_part(a, 0)⟧ * radius
+div: q.radius = least > 0.0 ? ⟦mwc_sheet_most(&left)⟧
+sqrt: s.radius = defined ? ⟦mwc_sheet_most(&left)⟧
+sincos, sine: sine->radius = (sine->radius + ⟦radius⟧)
+sincos, cosine: cosine->radius = (cosine->radius + ⟦radius⟧)
+"""
+)
 
 
 def compiled(folder, replaced=None):
@@ -63,13 +63,8 @@ def compiled(folder, replaced=None):
         for name, end in (("low", "-1.0"), ("high", "1.0"))
     ]
     calls.append(("low", "(r[k] = a[k], r[k].c[0] = mwc_cube_low(&a[k]))"))
-    source, library = folder / "sheet.c", folder / "sheet.so"
     loops = "".join(_LOOP.format(op=op, call=call) for op, call in calls)
-    source.write_text(f"#include <stddef.h>\n{text}{cube}{loops}", encoding="utf-8")
-    flags = [f for f in FLAGS if not f.startswith(("-W", "-O"))]
-    command = (*compiler(), *flags, "-O1", f"-I{C}", "-shared", source, "-o", library, "-lm")
-    subprocess.run([*map(str, command)], check=True)
-    return ctypes.CDLL(str(library))
+    return library_of(folder, f"#include <stddef.h>\n{text}{cube}{loops}")
 
 
 def run(loaded, op, a, b):
@@ -145,13 +140,6 @@ def cases(rng):
     yield "sincos", near, near
     near[:, 0] = np.pi / 2
     yield "sincos", near, near
-
-
-@pytest.fixture(autouse=True)
-def many_digits():
-    before, flint.ctx.prec = flint.ctx.prec, 300
-    yield
-    flint.ctx.prec = before
 
 
 def test_every_operation_holds_the_exact_results(tmp_path):

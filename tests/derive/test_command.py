@@ -2,6 +2,8 @@
 
 import json
 
+import pytest
+
 from derive import command, generated
 
 DRIVE = "spherical_spur_spur"
@@ -71,3 +73,20 @@ def test_the_six_stages_are_told_in_their_order(tmp_path, capsys):
     lines = [line.split() for line in capsys.readouterr().err.splitlines()]
     stages = ["define", "derive", "reduce", "schedule", "prove", "emit"]
     assert [stage for stage, name, *_ in lines if name == DRIVE] == stages
+
+
+@pytest.mark.parametrize("option", ["--output", "--into"])
+def test_an_empty_word_is_no_folder(option, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit) as ended:
+        command.main(["cylindrical_worm_za_za", option, ""])
+    assert ended.value.code == 2 and "is no folder; name one" in capsys.readouterr().err
+    assert not [*tmp_path.iterdir()]
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{}", '{"families": 3}'])
+def test_a_damaged_table_of_families_is_made_anew(text, tmp_path):
+    table = tmp_path / "families.json"
+    table.write_text(text, encoding="utf-8")
+    assert command.main(["spherical_convex_spur", "--output", str(tmp_path)]) == 0
+    assert "spherical" in json.loads(table.read_text(encoding="utf-8"))["families"]

@@ -72,6 +72,39 @@ def test_a_statement_that_an_edit_makes_false_is_open_and_the_c_is_written(tree,
         assert f"open      {name:<28} helicoids/zn-straight: false: at " in outcome.said
 
 
+def test_a_statement_of_one_body_is_open_where_the_tool_makes_another_surface_of_the_other(tree, tmp_path):
+    """An edge that is straight on the worm, of which the statements are proved, and crowned on the hob."""
+    page = tree / "derive" / "tools" / "straight_blade.py"
+    before = page.read_text(encoding="utf-8")
+    of_hob = "s * t * sp.sin(alpha) - (s * t**2 / 4000 if body.name == 'hob' else 0))"
+    page.write_text(before.replace(CROWNED[0], of_hob), encoding="utf-8")
+    try:
+        outcome = edits.derived(tree, "cylindrical_worm_zk_zn", "cylindrical_worm_zn_zn", "--output", tmp_path)
+    finally:
+        page.write_text(before, encoding="utf-8")
+    assert outcome.status == 0
+    for name in ("cylindrical_worm_zk_zn", "cylindrical_worm_zn_zn"):
+        described = json.loads((tmp_path / "c" / f"{name}.json").read_text(encoding="utf-8"))
+        assert described["open"].keys() == {f"helicoids/zn-{word}" for word in ("width", "straight", "normal")}
+        assert "straight_blade.py makes of hob" in described["open"]["helicoids/zn-straight"]
+        assert not described["open"].keys() & described["keys"].keys()
+
+
+@pytest.mark.parametrize(
+    "line", ["raise SystemExit(3)", "raise KeyError(0)", "return straight_blade(body, definitions)"]
+)
+def test_a_page_that_ends_is_refused_by_its_line(tree, tmp_path, line):
+    page = tree / "derive" / "tools" / "straight_blade.py"
+    before = page.read_text(encoding="utf-8")
+    begin = "    alpha, r, s = "
+    page.write_text(before.replace(begin, f"    {line}\n{begin}"), encoding="utf-8")
+    try:
+        outcome = edits.derived(tree, "cylindrical_worm_zn_zn", "--output", tmp_path)
+    finally:
+        page.write_text(before, encoding="utf-8")
+    assert outcome.status == 2 and f"straight_blade.py, line 17: `{line}`" in outcome.said
+
+
 @pytest.mark.parametrize("edit", [*islice(edits.edits(0), 3)], ids=str)
 def test_an_edited_page_compiles_or_is_refused_in_words(tree, tmp_path, edit):
     check(edit, edits.compiled(tree, edit, tmp_path / "out"))
@@ -90,3 +123,14 @@ def test_a_page_that_is_no_python_is_refused_by_its_line(tree, tmp_path, page):
     outcome = edits.compiled(tree, edit, tmp_path / "out")
     assert outcome.status == 2 and "Traceback" not in outcome.said
     assert re.search(rf"{page.rpartition('/')[2]}, line {len(lines)}: .*; correct the line", outcome.said), outcome.said
+
+
+def test_an_interrupted_run_ends_in_a_line(tree, tmp_path):
+    page = tree / "derive" / "tools" / "straight_blade.py"
+    before = page.read_text(encoding="utf-8")
+    page.write_text(before + "\nraise KeyboardInterrupt\n", encoding="utf-8")
+    try:
+        outcome = edits.derived(tree, "cylindrical_worm_zn_zn", "--output", tmp_path)
+    finally:
+        page.write_text(before, encoding="utf-8")
+    assert outcome.status == 130 and outcome.said.startswith("interrupted;") and not [*tmp_path.iterdir()]

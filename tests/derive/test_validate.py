@@ -230,6 +230,9 @@ CASES = {
     "function twice": (
         lambda d: replace(d, functions=2 * (solid("wheel", {"module": (1, "mm")}),)), "'solid_wheel' is there 2 times"
     ),
+    "family that is no text": (lambda d: replace(d, family=None), r"the family is None; give a text"),
+    "family of two words": (lambda d: replace(d, family="a b"), r"the family 'a b' is no name in a design file"),
+    "variant of a number": (lambda d: replace(d, variant={"form": 3}), r"the variant 'form' is 3; give a word"),
     "text that ends a comment": (lambda d: replace(d, title="a */ b"), r"title 'a \*/ b' has '\*/', which would end"),
     "no sizes": (lambda d: replace(d, sizes=()), "no size that follows from the design; give at least one"),
     "sign of strangers": (

@@ -106,47 +106,51 @@ def _quiet(chance, seed, folder, analyse, deep):
     return "analysed"
 
 
-def _batch(seeds, at, out, share, deep):
-    """In a child process: each seed's outcome; the parent reads from ``at`` how far it came."""
+def _one(seed, folder, share, deep):
+    """The outcome of a seed, counted."""
+    chance = random.Random(seed)
+    analyse = chance.random() < share
+    return Counter([_quiet(chance, seed, folder, analyse, chance.random() < deep)])
+
+
+def batch(seeds, at, out, one, hang):
+    """In a child process: what ``one(seed, folder)`` counts; the parent reads from ``at`` how far it came."""
     signal.signal(signal.SIGPROF, signal.SIG_DFL)
     warnings.simplefilter("error", RuntimeWarning)
     counted, failures, slowest = Counter(), [], (0.0, seeds[0])
     with tempfile.TemporaryDirectory() as folder:
         for seed in seeds:
             at[:8] = struct.pack("q", seed)
-            chance = random.Random(seed)
-            signal.setitimer(signal.ITIMER_PROF, HANG)
+            signal.setitimer(signal.ITIMER_PROF, hang)
             begin = time.process_time()
             try:
-                outcome = _quiet(chance, seed, folder, chance.random() < share, chance.random() < deep)
+                counted.update(one(seed, folder))
             except Exception:
-                outcome = "failed"
+                counted["failed"] += 1
                 failures.append({"seed": seed, "error": traceback.format_exc(limit=-6)})
-            counted[outcome] += 1
             signal.setitimer(signal.ITIMER_PROF, 0.0)
             slowest = max(slowest, (time.process_time() - begin, seed))
     out.write(json.dumps({"counted": counted, "failures": failures, "slowest": slowest}))
 
 
-def forked(seeds, batch, hang):
+def forked(seeds, one, hang):
     """Counts and failures of a batch, the seeds still to do after one at which the process died, and the slowest: its
     seconds of processor time, its seed.
 
-    ``batch(seeds, at, out)`` notes the seed it is at in the eight bytes ``at`` and ends with writing counts, failures
-    and, where it takes them, those of the slowest to ``out``, as JSON; a design may take ``hang`` seconds.
+    ``one(seed, folder)`` counts what becomes of a seed, which may take ``hang`` seconds.
     """
     at = mmap(-1, 8)
     with tempfile.TemporaryFile("w+") as out:
         child = os.fork()
         if child == 0:
-            batch(seeds, at, out)
+            batch(seeds, at, out, one, hang)
             out.flush()
             os._exit(0)
         status = os.waitpid(child, 0)[1]
         if status == 0:
             out.seek(0)
             done = json.load(out)
-            return Counter(done["counted"]), done["failures"], [], tuple(done.get("slowest", (0.0, seeds[0])))
+            return Counter(done["counted"]), done["failures"], [], tuple(done["slowest"])
     last = struct.unpack("q", at[:8])[0]
     number = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
     why = f"took more than {hang:g} s" if number == signal.SIGPROF else f"ended the process (status {status})"
@@ -163,8 +167,7 @@ def run(count, analyse, seed=0, deep=0.0, say=lambda text: None):
         while open_:
             wanted, left = analyse - total["analysed"], count - sum(total.values())
             share = min(1.0, 3.5 * wanted / max(left, 1)) if wanted > 0 else 0.0
-            batch = partial(_batch, share=share, deep=deep)
-            counted, failed, again, slow = forked(open_.pop(), batch, HANG)
+            counted, failed, again, slow = forked(open_.pop(), partial(_one, share=share, deep=deep), HANG)
             total += counted
             failures += failed
             open_ += again

@@ -7,22 +7,7 @@ shaft angles; errors Δγh, Δγv have the signs of the paper.
 
 from dataclasses import dataclass
 
-
-def rotate(axis, angle, a, m):
-    """Active right-handed rotation about a coordinate axis."""
-    c, s = m.cos(angle), m.sin(angle)
-    i, j = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}[axis]
-    out = list(a)
-    out[i], out[j] = c * a[i] - s * a[j], s * a[i] + c * a[j]
-    return out
-
-
-def cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def dot(a, b):
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+from tests.independent.vectors import cross, dot, rotate
 
 
 @dataclass

@@ -13,7 +13,8 @@ from mpmath import mpf
 from tests.independent import spherical
 from tests.independent.cylindrical_gears import pair_of
 from tests.independent.face_worm import FaceWorm
-from tests.independent.worm import WormDrive, rotate
+from tests.independent.vectors import rotate
+from tests.independent.worm import WormDrive
 
 
 @dataclass(frozen=True)

@@ -11,22 +11,7 @@ from dataclasses import dataclass
 import mpmath as mp
 import numpy as np
 
-
-def rotate(axis, angle, a):
-    """Active right-handed rotation about a coordinate axis."""
-    c, s = mp.cos(angle), mp.sin(angle)
-    i, j = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}[axis]
-    out = list(a)
-    out[i], out[j] = c * a[i] - s * a[j], s * a[i] + c * a[j]
-    return out
-
-
-def cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def dot(a, b):
-    return sum(x * y for x, y in zip(a, b, strict=True))
+from tests.independent.vectors import cross, dot, rotate
 
 
 def unit(a):

@@ -12,12 +12,9 @@ import math
 import numpy as np
 import pytest
 
-from meshwright import Drive
 from meshwright.contact.results import ARCSEC
-from meshwright.design import design as designs
 from meshwright.sensitivity import sensitivity
 from tests.embedding import compile as c
-from tests.outside.folder import Commands
 
 pytestmark = pytest.mark.validate
 
@@ -35,26 +32,6 @@ TABLES = {
         "pinion_helix_angle_deg": 50.0, "wheel_helix_angle_deg": 35.0, "face_width_mm": 30.0,
     },
 }  # fmt: skip
-
-
-@pytest.fixture(scope="module")
-def folder(derivation):
-    return derivation("crossed_helicoids")
-
-
-@pytest.fixture
-def run(folder, tmp_path):
-    path = tmp_path / "pair.toml"
-    path.write_text(designs.toml_text(TABLES), encoding="utf-8")
-    return Commands(folder, path)
-
-
-@pytest.fixture
-def drive(folder):
-    def made(**tables):
-        return Drive.from_tables(TABLES | tables, drives=folder)
-
-    return made
 
 
 @pytest.mark.parametrize("hand", [1.0, -1.0])

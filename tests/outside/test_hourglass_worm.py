@@ -13,12 +13,10 @@ import pytest
 
 from meshwright import Drive
 from meshwright.contact.results import ARCSEC
-from meshwright.design import design as designs
 from meshwright.fe.closed_body import solid_body
 from meshwright.fe.thread_flanks import threads
 from meshwright.flank.patches import triangulated
 from meshwright.sensitivity import sensitivity
-from tests.outside.folder import Commands
 
 pytestmark = pytest.mark.validate
 
@@ -29,26 +27,6 @@ DESIGN = {
 TABLES = {"drive": "hourglass-worm", "name": "hourglass", "design": DESIGN}
 ALPHA, BETA = math.radians(22.0), math.radians(8.0)
 ERRORS = {"center_distance_mm": 0.05, "shaft_angle_deg": 0.02, "axial_mm": -0.03}
-
-
-@pytest.fixture(scope="module")
-def folder(derivation):
-    return derivation("hourglass_worm")
-
-
-@pytest.fixture
-def run(folder, tmp_path):
-    path = tmp_path / "hourglass.toml"
-    path.write_text(designs.toml_text(TABLES), encoding="utf-8")
-    return Commands(folder, path)
-
-
-@pytest.fixture
-def drive(folder):
-    def made(**tables):
-        return Drive.from_tables(TABLES | tables, drives=folder)
-
-    return made
 
 
 class Twin:

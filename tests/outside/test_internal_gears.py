@@ -15,11 +15,9 @@ from meshwright import Drive
 from meshwright.base.errors import DesignError
 from meshwright.cli import main
 from meshwright.contact.results import ARCSEC
-from meshwright.design import design as designs
 from meshwright.fe.closed_body import closed_body
 from meshwright.sensitivity import sensitivity
 from meshwright.shop.balls import sizes
-from tests.outside.folder import Commands, derived
 
 pytestmark = pytest.mark.validate
 
@@ -37,26 +35,6 @@ ERRORS = {"center_distance_mm": 0.05, "out_of_plane_deg": 0.03, "in_plane_deg": 
 
 def inv(angle):
     return math.tan(angle) - angle
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return derived("internal_gears", tmp_path_factory.mktemp("drives"))
-
-
-@pytest.fixture
-def run(folder, tmp_path):
-    path = tmp_path / "ring.toml"
-    path.write_text(designs.toml_text(TABLES), encoding="utf-8")
-    return Commands(folder, path)
-
-
-@pytest.fixture
-def drive(folder):
-    def made(**tables):
-        return Drive.from_tables(TABLES | tables, drives=folder)
-
-    return made
 
 
 def spur(**more):

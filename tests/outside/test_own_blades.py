@@ -14,7 +14,8 @@ from meshwright.cli import main
 from meshwright.contact.results import ARCSEC
 from meshwright.design import design as designs
 from meshwright.sensitivity import sensitivity
-from tests.independent.worm import Helicoid, WormDrive, rotate, unit
+from tests.independent.vectors import rotate
+from tests.independent.worm import Helicoid, WormDrive, unit
 from tests.outside.folder import Commands
 from tests.worm.hob_tip import Balls
 
@@ -78,11 +79,6 @@ def exact_error(tables, phi, contact):
         start.append(float(contact.wheel_angles[0]))
         solved = twin.polished(start, mp.mpf(phi))
         return float(solved[5] - mp.mpf(phi) * twin.threads / twin.teeth)
-
-
-@pytest.fixture(scope="module")
-def folder(derivation):
-    return derivation("own_blades")
 
 
 def tables_of(own, errors=None, **tables):

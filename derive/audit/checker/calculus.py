@@ -5,24 +5,22 @@ from __future__ import annotations
 import re
 from random import Random
 
+from .drive import rate, read
 from .machine import Machine, machine
 from .modular import PRIME, Number
 from .refusal import require
 from .straight_line import Function, Header, read_body
 
 
-def check_jacobian(header: Header, rng: Random) -> None:
-    run = machine(header, "eval", rng)
-    rows = sum(name.startswith("R[") for name in run.function.definitions)
-    columns = sum(name.startswith("J[") for name in run.function.definitions) // rows
+def check_jacobian(header: Header, name: str, rng: Random) -> None:
+    """J is the derivative of R, entry by entry."""
+    run = machine(header, name, rng)
+    rows, entries = (sum(entry.startswith(letter) for entry in run.function.definitions) for letter in ("R[", "J["))
     for i in range(rows):
-        residual = run.value(f"R[{i}]")
-        rates = residual.rates + (0,) * (columns - len(residual.rates)) if residual.rates else (0,) * columns
+        residual, columns = run.value(f"R[{i}]"), entries // rows
         for j in range(columns):
-            require(
-                run.value(f"J[{i * columns + j}]").value == rates[j] % PRIME,
-                f"eval: J[{i}][{j}] is not the derivative of R[{i}]",
-            )
+            found = run.value(f"J[{i * columns + j}]").value
+            require(found == rate(residual, j).value % PRIME, f"{name}: J[{i}][{j}] is not the derivative of R[{i}]")
 
 
 def check_assembly(header: Header, rng: Random) -> None:
@@ -60,27 +58,22 @@ def check_agreement(header: Header, body: str, rng: Random) -> None:
 def check_flank(header: Header, name: str, rng: Random) -> None:
     run = machine(header, name, rng, arcs=True)
     outputs = run.function.outputs
-
-    def vector(key: str) -> list[Number]:
-        at, size = outputs[key]
-        return [run.value(f"o[{at + k}]") for k in range(size)]
-
     tangents = [key for key in outputs if key.startswith("tangent_")]
-    point, normal = vector("point"), vector("normal")
+    point, normal = read(run, "point"), read(run, "normal")
     require(sum(n.value * n.value for n in normal) % PRIME == 1, f"{name}: the normal has not length one")
     meets = []
     for position, key in enumerate(tangents):
-        tangent = vector(key)
+        tangent = read(run, key)
         for k in range(3):
-            rate = point[k].rates[position] if len(point[k].rates) > position else 0
-            require(tangent[k].value == rate % PRIME, f"{name}: {key} is not the derivative of the point")
+            found = tangent[k].value == rate(point[k], position).value % PRIME
+            require(found, f"{name}: {key} is not the derivative of the point")
         if sum(n.value * t.value for n, t in zip(normal, tangent, strict=True)) % PRIME:
             meets.append(key)
     implicit = [key for key in outputs if re.fullmatch(r"condition_\d+", key)]
     require(len(meets) == len(implicit), f"{name}: the normal is not perpendicular to {', '.join(meets)}")
     for key in implicit:
-        (condition,) = vector(key)
-        slopes = [number.value for number in vector(f"{key}_slopes")]
+        (condition,) = read(run, key)
+        slopes = [number.value for number in read(run, f"{key}_slopes")]
         require(
             slopes == [rate % PRIME for rate in condition.rates], f"{name}: the slopes of {key} are not its derivatives"
         )
@@ -139,26 +132,12 @@ def check_along(header: Header, rng: Random) -> None:
         require(along.value(f"d2[{i}]").value == slope(first), f"along: d2[{i}] is not the derivative of d1[{i}]")
 
 
-def check_start(header: Header, rng: Random) -> None:
-    """The Jacobian of the start system."""
-    run = machine(header, "start_eval", rng)
-    n = sum(name.startswith("R[") for name in run.function.definitions)
-    for i in range(n):
-        rates = run.value(f"R[{i}]").rates or (0,) * n
-        for j in range(n):
-            require(run.value(f"J[{i * n + j}]").value == rates[j] % PRIME, f"start_eval: J[{i}][{j}] is no derivative")
-
-
 def check_curvature(header: Header, name: str, rng: Random) -> None:
     """An orthonormal basis of the tangent plane, the second form from the change of the normal, its trace and
     determinant from the principal curvatures.
     """
     run = machine(header, name, rng, arcs=True)
     curved = Machine(run.inputs, header.functions[f"curvature_{name}"], run.earlier, run.circle)
-
-    def read(machine_: Machine, key: str) -> list[Number]:
-        at, size = machine_.function.outputs[key]
-        return [machine_.value(f"o[{at + k}]") for k in range(size)]
 
     def product(a: list[int], b: list[int]) -> int:
         return sum(x * y for x, y in zip(a, b, strict=True)) % PRIME
@@ -175,7 +154,7 @@ def check_curvature(header: Header, name: str, rng: Random) -> None:
     tangents = [[n.value for n in read(run, key)] for key in run.function.outputs if key.startswith("tangent_")]
     for first in tangents:
         for j in range(len(tangents)):
-            turned = [n.rates[j] if n.rates else 0 for n in normal]
+            turned = [rate(n, j).value for n in normal]
             (a, b), (c, d) = ([product(v, e) for e in axes_] for v in (first, tangents[j]))
             expected = a * c * form[0] + (a * d + b * c) * form[1] + b * d * form[2]
             require((expected + product(first, turned)) % PRIME == 0, f"curvature_{name}: not the change of the normal")

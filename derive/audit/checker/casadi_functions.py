@@ -20,7 +20,13 @@ try:
 except ImportError:
     casadi = None
 
-BINARY = {"OP_ADD": "+", "OP_SUB": "-", "OP_MUL": "*", "OP_DIV": "/"}
+#: Operations as C writes them, some as several, the last of which has the name: ``a < 0`` is (1 - sign a) / 2.
+OPERATIONS = {
+    "OP_ADD": ("{} + {}",), "OP_SUB": ("{} - {}",), "OP_MUL": ("{} * {}",), "OP_DIV": ("{} / {}",), "OP_NEG": ("-{}",),
+    "OP_SQ": ("{0} * {0}",), "OP_TWICE": ("2.0 * {}",), "OP_INV": ("1.0 / {}",), "OP_SQRT": ("sqrt({})",),
+    "OP_ATAN2": ("atan2({}, {})",), "OP_FABS": ("SIGN({0})", "{0} * {name}m"),
+    "OP_LT": ("{0} - {1}", "SIGN({name}mmm)", "1.0 - {name}mm", "0.5 * {name}m"),
+}  # fmt: skip
 
 
 def program_of(function) -> tuple[dict[str, tuple[str, str]], list[int]]:
@@ -42,42 +48,15 @@ def program_of(function) -> tuple[dict[str, tuple[str, str]], list[int]]:
         name = f"t{k}"
         if code == "OP_INPUT":
             made[name] = ("expression", f"in{a[0]}[{a[1]}]")
-        elif code in BINARY:
-            made[name] = ("expression", f"{now[a[0]]} {BINARY[code]} {now[a[1]]}")
         elif code in ("OP_SIN", "OP_COS"):
             made[name] = (code[3:].lower(), now[a[0]])
         else:
-            made.update(unary(code, name, [now[i] for i in a]))
+            require(code in OPERATIONS, f"CasADi: {code} is not foreseen")
+            texts = OPERATIONS[code]
+            for left, text in enumerate(texts, 1 - len(texts)):
+                made[name + "m" * -left] = ("expression", text.format(*(now[i] for i in a), name=name))
         now[b[0]] = name
     return made, begins
-
-
-def unary(code: str, name: str, operands: list[str]) -> dict[str, tuple[str, str]]:
-    """Operations that C spells otherwise. ``a < 0`` is (1 - sign a) / 2."""
-    first = operands[0]
-    match code:
-        case "OP_NEG":
-            return {name: ("expression", f"-{first}")}
-        case "OP_SQ":
-            return {name: ("expression", f"{first} * {first}")}
-        case "OP_TWICE":
-            return {name: ("expression", f"2.0 * {first}")}
-        case "OP_INV":
-            return {name: ("expression", f"1.0 / {first}")}
-        case "OP_SQRT":
-            return {name: ("expression", f"sqrt({first})")}
-        case "OP_ATAN2":
-            return {name: ("expression", f"atan2({first}, {operands[1]})")}
-        case "OP_FABS":
-            return {f"{name}m": ("expression", f"SIGN({first})"), name: ("expression", f"{first} * {name}m")}
-        case "OP_LT":
-            return {
-                f"{name}mm": ("expression", f"{first} - {operands[1]}"),
-                f"{name}mmm": ("expression", f"SIGN({name}mm)"),
-                f"{name}m": ("expression", f"1.0 - {name}mmm"),
-                name: ("expression", f"0.5 * {name}m"),
-            }
-    raise Rejected(f"CasADi: {code} is not foreseen")
 
 
 class Casadi:
@@ -141,10 +120,9 @@ def beside(drive: BoundedDrive, ending: str, result: str, rng: Random) -> tuple[
         run, _ = drive.run(name, rng, "q", symbols)
         if result != name:
             run = Machine(run.inputs, drive.function(result), run.earlier, run.circle)
-        total = max(at + size for at, size in run.function.outputs.values())
         given = {"p": [run.inputs[f"p[{k}]"] for k in range(parameters)]}
         given[f"q_{name}"] = [run.inputs[f"q[{k}]"] for k in range(len(symbols))]
-        return run, [f"o[{k}]" for k in range(total)], given
+        return run, results_of(run), given
     system = next(s for s in drive.description["design_systems"] if ending == f"_{s['name']}")
     symbols = [unknown["name"] for unknown in system["unknowns"]]
     stem = {"residual": "eval", "values": "fill"}.get(result, result)
@@ -162,6 +140,11 @@ def beside(drive: BoundedDrive, ending: str, result: str, rng: Random) -> tuple[
         run = Machine({k: v for k, v in run.inputs.items() if k[0] != "y"}, run.function, run.earlier, run.circle)
         letter = "y"
     return run, [f"{letter}[{k}]" for k in range(count)], given
+
+
+def results_of(run: Machine) -> list[str]:
+    """Texts of all that a function returns."""
+    return [f"o[{k}]" for k in range(max(at + size for at, size in run.function.outputs.values()))]
 
 
 def arguments_of(drive: BoundedDrive, name: str) -> list[str]:
@@ -187,33 +170,28 @@ def main_texts(drive: BoundedDrive, result: str, rng: Random) -> tuple[Machine, 
     """C function at the same input, and the texts of what the result holds."""
     observed, _ = drive.run("observe", rng, "x", drive.unknowns)
     inputs, n = observed.inputs, len(drive.unknowns)
+    start = [unknown["name"] for unknown in drive.description["start"]["unknowns"]]
+    own = {f"y[{k}]": inputs[f"x[{drive.unknowns.index(name)}]"] for k, name in enumerate(start)}
 
     def at(name: str, more: dict | None = None, without: str = "") -> Machine:
-        own = {k: v for k, v in inputs.items() if not without or k[0] != without}
-        return Machine(own | (more or {}), drive.function(name), observed.earlier, observed.circle)
+        kept = {k: v for k, v in inputs.items() if not without or k[0] != without}
+        return Machine(kept | (more or {}), drive.function(name), observed.earlier, observed.circle)
 
     match result:
         case "residual":
             return at("eval"), [f"R[{k}]" for k in range(n)]
         case "observation":
-            total = max(a + size for a, size in observed.function.outputs.values())
-            return observed, [f"o[{k}]" for k in range(total)]
+            return observed, results_of(observed)
         case "placement":
             angle = Number(read(observed, "wheel_angle")[0].value, (), read(observed, "wheel_angle")[0].form)
             run = at("placement", {"q[0]": inputs["phi"], "q[1]": angle})
-            total = max(a + size for a, size in run.function.outputs.values())
-            return run, [f"o[{k}]" for k in range(total)]
+            return run, results_of(run)
         case "start_residual":
-            start = [unknown["name"] for unknown in drive.description["start"]["unknowns"]]
-            own = {f"y[{k}]": inputs[f"x[{drive.unknowns.index(name)}]"] for k, name in enumerate(start)}
             return (at("start_eval", own), [f"R[{k}]" for k in range(len(start))]) if start else (observed, [])
         case "start_solution":
-            start = [unknown["name"] for unknown in drive.description["start"]["unknowns"]]
-            own = {f"y[{k}]": inputs[f"x[{drive.unknowns.index(name)}]"] for k, name in enumerate(start)}
             return at("start_solution", own, "x"), [f"new x[{k}]" for k in range(n)]
         case "start_guess":
-            count = len(drive.description["start"]["unknowns"])
-            return (at("guess"), [f"y[{k}]" for k in range(count)]) if count else (observed, [])
+            return (at("guess"), [f"y[{k}]" for k in range(len(start))]) if start else (observed, [])
         case "scale":
             return at("scale", None, "x"), [f"new x[{k}]" for k in range(n)]
         case "guards":

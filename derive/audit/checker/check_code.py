@@ -44,7 +44,6 @@ from .calculus import (
     check_curvature,
     check_flank,
     check_jacobian,
-    check_start,
     check_step,
 )
 from .kernels import check_arc_kernel, check_kernels, check_near_kernel
@@ -55,7 +54,7 @@ from .straight_line import Header, read_companion, read_header
 
 def checks_of(header: Header) -> Iterator[tuple[str, tuple]]:
     """What is checked of a header: words, and the check with its arguments."""
-    yield "jacobian of the residual", (check_jacobian, header)
+    yield "jacobian of the residual", (check_jacobian, header, "eval")
     yield "Newton step", (check_step, header)
     yield "residual by an anchor", (check_by_anchor, header)
     yield "derivatives along a path", (check_along, header)
@@ -66,7 +65,7 @@ def checks_of(header: Header) -> Iterator[tuple[str, tuple]]:
         for body in header.unknowns:
             yield f"tangents of the {body}", (check_flank_tangent, header, header.tangents, body)
     if "start_eval" in header.functions:
-        yield "jacobian of the start system", (check_start, header)
+        yield "jacobian of the start system", (check_jacobian, header, "start_eval")
     yield "assembly of the two points", (check_assembly, header)
     for name in header.functions:
         if name.startswith(("flank_", "fillet_")):

@@ -107,14 +107,6 @@ def subject_normal(drive: Described, statement: Statement, rng: Random) -> None:
         same(a, b, statement)
 
 
-def subject_condition(drive: Described, statement: Statement, rng: Random) -> None:
-    """A condition that a surface keeps, by its place."""
-    place, *number = statement.about
-    conditions = drive.entries[place]["surface"]["conditions"]
-    reader = drive.reader(rng)
-    same(reader(conditions[int(number[0]) - 1 if number else 0]), reader(statement.sides[0]), statement)
-
-
 #: Kinds of statements of which more is to be known than that an entry is what is printed.
 SUBJECTS = {
     "rule": subject_rule,

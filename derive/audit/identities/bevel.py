@@ -2,8 +2,8 @@
 
 from derive.audit.claims import Document, scope
 from derive.audit.described import Described
-from derive.audit.identities.conventions import identity
 from derive.audit.ledger import Chapter
+from derive.audit.paragraphs import identities
 from derive.prove.tree import Tree
 
 DOCUMENT = Document(
@@ -308,219 +308,137 @@ r = vec(x, y, z)
     },
 )
 
-CLAIMS = (
-    identity(
-        "meshing",
-        "equation of meshing",
-        "Machine and blank of the description move against one another in a screw about cradle and work axis, for any "
-        "roll: f is its "
-        "moment about the cutter's normal. rate is dφw/dφc.",
-        both(
-            "dot({n_cut}, d({cut}, phi) + rate*d({cut}, work)) = dot({n_gen}, {h}cross(k, {gen})"
-            " {opposite_sign} rate*cross({axis}, {gen} + {base}) - H*k)"
-        ),
-        MACHINE,
-    ),
-    identity(
-        "regular",
-        "regular part",
-        "Of any generating surface: g = f_u a + f_θ b + f_φ is the second derivative, along the normal, of the tool's "
-        "place over a fixed point of the blank: there r_u a + r_θ b = −r_φ, and whatever the second derivatives of the "
-        "rates add lies in the tangent plane. Positive where the tool cuts deepest at this instant.",
-        [
-            "dot(N, V) = 0",
-            "g = dot(N, twice)",
-            "dot(N, twice + k1*A + k2*B) = dot(N, twice)",
-        ],
-        REGULAR,
-    ),
-    identity(
-        "edge-normal",
-        "blade",
-        "The arc's normal has unit length and is normal to the arc; it begins along the line.",
-        ["dot(n_arc, n_arc) = 1", "dot(n_arc, d(arc, t)) = 0", "cos(t)*n_arc - sin(t)*d(arc, t)*kappa = n0"],
-        BLADE,
-        conditions=["κb ≠ 0"],
-    ),
-    identity(
-        "swung-edge",
-        "blade",
-        "Measured by where its normal meets the line, the arc has a derivative along t0 - κb w n0, and no singularity "
-        "at κb = 0.",
-        ["secant**3*d(swung, X) = t0 - kappa*X*n0", "dot(n_swung, t0 - kappa*X*n0) = 0"],
-        BLADE,
-        conditions=["1 + √(1 + κb²w²) ≠ 0"],
-    ),
-    identity(
-        "pole",
-        "blade",
-        "The normal of the arc meets its line at the distance w from the point of contact.",
-        "cross(pole - swung, n_swung) = vec(0, 0, 0)",
-        BLADE,
-    ),
-    identity(
-        "linear",
-        "explicit flank",
-        "In any motion the equation of meshing is linear in w, for a straight blade and for an arc.",
-        "d(d(f, X), X) = 0",
-        BLADE,
-    ),
-    identity(
-        "fillet-join",
-        "fillet",
-        "The rounding joins the straight edge in place and normal, turns about one centre and touches the tip plane.",
-        [
-            "joined = vec(rp, 0, 0) + rho*(1 - sin(alpha))/cos(alpha)*t0",
-            "m_joined = n0",
-            "centre.z = -rho",
-            "d(centre, tau) = vec(0, 0, 0)",
-            "dot(m_round, d(rounding, tau)) = 0",
-        ],
-        ROUNDING,
-        conditions=["cos α > 0"],
-    ),
-    identity(
-        "cone-normal",
-        "blade",
-        "The turning straight blade sweeps a cone: its normal is a unit vector, normal to blade and circle, and the "
-        "same along the whole blade.",
-        [
-            "dot(n_cone, n_cone) = 1",
-            "dot(n_cone, d(cone, u)) = 0",
-            "dot(n_cone, d(cone, theta)) = 0",
-            "d(n_cone, u) = vec(0, 0, 0)",
-        ],
-        CONE,
-    ),
-    identity(
-        "stand-off",
-        "blade",
-        "The arc leaves its line along its own normal, from the pole on; the straight blade, κb = 0, not at all.",
-        "secant*(secant + 1)*(swung - pole) = -kappa*X**2*n_swung",
-        BLADE,
-    ),
-    identity(
-        "rounding",
-        "fillet",
-        "Normals of the rounding pass through its centre: in any motion the equation of meshing is a cosine and a sine "
-        "of their inclination τ, with the velocity of the centre.",
-        "dot(m_round, at_rounding) = -s*at_centre.x*cos(tau) - at_centre.z*sin(tau)",
-        ROUNDING,
-    ),
-    identity(
-        "tangent-cones",
-        "conjugate pairs",
-        "A wider cone whose axis is moved back by the change of radius shares point and normal along one whole "
-        "generatrix: crowning along the tooth.",
-        ["wider = vec(c1, c2, 0) + cone", "n_cone = n_widened"],
-        CONE,
-    ),
-    identity(
-        "hand",
-        "machine",
-        "The other hand is the mirror image y → -y at equal blade and cradle angles: only the senses of turns change.",
-        "cut_pinion = reflect@cut_gear",
-        MACHINE,
-    ),
-    identity(
-        "rotation-of-blade",
-        "machine",
-        "Without tilt, blade angle and swivel enter as their sum.",
-        both("d({untilted}, theta) = d({untilted}, j)"),
-        MACHINE,
-    ),
-    identity(
-        "plain-roll",
-        "machine",
-        "With plain roll, in the ratio R, a change of the cradle angle only turns the member: the flank depends on q + "
-        "φc.",
-        both("d({plain}, (phi, 1), (work, R)) = d({plain}, q) {opposite_sign} R*cross(k, {plain})"),
-        MACHINE,
-    ),
-    identity(
-        "scale",
-        "machine",
-        "All lengths times c, helical motion among them: the flank times c at equal angles.",
-        both("{larger} = c*{cut}"),
-        MACHINE,
-    ),
-    identity(
-        "apex",
-        "machine",
-        "Centre to back and sliding base together shift the cutter along the machine plane.",
-        both("{shifted} = {moved}"),
-        MACHINE,
-        conditions=["cos γm ≠ 0"],
-    ),
-    identity(
-        "crown",
-        "conjugate pairs",
-        "A member with R = 1/sin δ, γm = δ rolls on the machine plane: its velocity is that of a turn about the pitch "
-        "line, the same line for both members.",
-        both(
-            "dot({n_cut}, d({crown}, phi) + d({crown}, work)/sin(gamma))"
-            " = {opposite}cos(gamma)/sin(gamma)*dot({n_gen}, cross(e1, {gen}))"
-        ),
-        MACHINE,
-        conditions=["sin δ ≠ 0"],
-    ),
-    identity(
-        "hobbed-crown",
-        "face-hobbed",
-        "The blank turns by φw - N_b/N θ, with R = N_c/N by N_c/N times the turn φc - ν of a crown gear; in that crown "
-        "gear the place of the blade is free of φc: all positions of the cradle cut one crown tooth, and members with "
-        "one crown tooth are conjugate.",
-        both(
-            "{work}@({index}@vec(x, y, z)) = Rz({opposite}(work - index))@vec(x, y, z)",
-            "d(Rz({opposite}(phi - nu))@{hobbing}, phi) = vec(0, 0, 0)",
-        ),
-        HOBBED,
-    ),
-    identity(
-        "epicycloid",
-        "face-hobbed",
-        "With an upright axis the reference point of the blade describes in the crown gear an extended epicycloid: a "
-        "circle that turns by θ + ν while its centre, at the radial setting, turns by ν.",
-        both(
-            "Rz({opposite}(phi - nu))@{drawn} = Rz({h}(q + nu))@vec(Sr, 0, z) + Rz({h}(q + nu + theta))@{arm}"
-        ),
-        HOBBED,
-    ),
-    identity(
-        "hobbed-milled",
-        "face-hobbed",
-        "A cutter of no blade groups with its blade in the plane of the axis mills: any edge is where the machine of "
-        "face-milled members has it.",
-        both("{milling} = {cut}"),
-        HOBBED,
-    ),
-    identity(
-        "formate-cradle",
-        "conjugate pairs",
-        "Where the pinion's cradle is the gear itself, γm = Σ - 90°, Em = E, XD = 0 and R = N2/N1, the machine moves "
-        "as the pair of the description does in mesh, turned over: what it cuts is conjugate to the gear, for any "
-        "offset.",
-        "rolled = meshed",
-        PAIR,
-    ),
-    identity(
-        "offset",
-        "assembly",
-        "The offset shifts the pinion along the common perpendicular and does nothing else: without it the hypoid pair "
-        "is a bevel pair.",
-        "hypoid - vec(0, E, 0) = bevel",
-        PAIR,
-    ),
-    identity(
-        "assembly-axis",
-        "assembly",
-        "The pinion's axis is (sin Σ, 0, cos Σ); it turns by φ1 about minus that axis.",
-        [
-            "pinion_axis = vec(sin(Sigma), 0, cos(Sigma))",
-            "d(hypoid, phi1) = -cross(vec(sin(Sigma), 0, cos(Sigma)), hypoid - vec(0, E, 0))",
-        ],
-        PAIR,
-    ),
+CLAIMS = identities(
+    """
+meshing | equation of meshing | MACHINE
+Machine and blank of the description move against one another in a screw about cradle and work axis, for any roll: f is
+its moment about the cutter's normal. rate is dφw/dφc.
+    dot({n_cut}, d({cut}, phi) + rate*d({cut}, work))
+        = dot({n_gen}, {h}cross(k, {gen}) {opposite_sign} rate*cross({axis}, {gen} + {base}) - H*k)
+
+regular | regular part | REGULAR
+Of any generating surface: g = f_u a + f_θ b + f_φ is the second derivative, along the normal, of the tool's place over
+a fixed point of the blank: there r_u a + r_θ b = −r_φ, and whatever the second derivatives of the rates add lies in the
+tangent plane. Positive where the tool cuts deepest at this instant.
+    dot(N, V) = 0
+    g = dot(N, twice)
+    dot(N, twice + k1*A + k2*B) = dot(N, twice)
+
+edge-normal | blade | BLADE
+The arc's normal has unit length and is normal to the arc; it begins along the line.
+    dot(n_arc, n_arc) = 1
+    dot(n_arc, d(arc, t)) = 0
+    cos(t)*n_arc - sin(t)*d(arc, t)*kappa = n0
+where: κb ≠ 0
+
+swung-edge | blade | BLADE
+Measured by where its normal meets the line, the arc has a derivative along t0 - κb w n0, and no singularity at κb = 0.
+    secant**3*d(swung, X) = t0 - kappa*X*n0
+    dot(n_swung, t0 - kappa*X*n0) = 0
+where: 1 + √(1 + κb²w²) ≠ 0
+
+pole | blade | BLADE
+The normal of the arc meets its line at the distance w from the point of contact.
+    cross(pole - swung, n_swung) = vec(0, 0, 0)
+
+linear | explicit flank | BLADE
+In any motion the equation of meshing is linear in w, for a straight blade and for an arc.
+    d(d(f, X), X) = 0
+
+fillet-join | fillet | ROUNDING
+The rounding joins the straight edge in place and normal, turns about one centre and touches the tip plane.
+    joined = vec(rp, 0, 0) + rho*(1 - sin(alpha))/cos(alpha)*t0
+    m_joined = n0
+    centre.z = -rho
+    d(centre, tau) = vec(0, 0, 0)
+    dot(m_round, d(rounding, tau)) = 0
+where: cos α > 0
+
+cone-normal | blade | CONE
+The turning straight blade sweeps a cone: its normal is a unit vector, normal to blade and circle, and the same along
+the whole blade.
+    dot(n_cone, n_cone) = 1
+    dot(n_cone, d(cone, u)) = 0
+    dot(n_cone, d(cone, theta)) = 0
+    d(n_cone, u) = vec(0, 0, 0)
+
+stand-off | blade | BLADE
+The arc leaves its line along its own normal, from the pole on; the straight blade, κb = 0, not at all.
+    secant*(secant + 1)*(swung - pole) = -kappa*X**2*n_swung
+
+rounding | fillet | ROUNDING
+Normals of the rounding pass through its centre: in any motion the equation of meshing is a cosine and a sine of their
+inclination τ, with the velocity of the centre.
+    dot(m_round, at_rounding) = -s*at_centre.x*cos(tau) - at_centre.z*sin(tau)
+
+tangent-cones | conjugate pairs | CONE
+A wider cone whose axis is moved back by the change of radius shares point and normal along one whole generatrix:
+crowning along the tooth.
+    wider = vec(c1, c2, 0) + cone
+    n_cone = n_widened
+
+hand | machine | MACHINE
+The other hand is the mirror image y → -y at equal blade and cradle angles: only the senses of turns change.
+    cut_pinion = reflect@cut_gear
+
+rotation-of-blade | machine | MACHINE
+Without tilt, blade angle and swivel enter as their sum.
+    d({untilted}, theta) = d({untilted}, j)
+
+plain-roll | machine | MACHINE
+With plain roll, in the ratio R, a change of the cradle angle only turns the member: the flank depends on q + φc.
+    d({plain}, (phi, 1), (work, R)) = d({plain}, q) {opposite_sign} R*cross(k, {plain})
+
+scale | machine | MACHINE
+All lengths times c, helical motion among them: the flank times c at equal angles.
+    {larger} = c*{cut}
+
+apex | machine | MACHINE
+Centre to back and sliding base together shift the cutter along the machine plane.
+    {shifted} = {moved}
+where: cos γm ≠ 0
+
+crown | conjugate pairs | MACHINE
+A member with R = 1/sin δ, γm = δ rolls on the machine plane: its velocity is that of a turn about the pitch line, the
+same line for both members.
+    dot({n_cut}, d({crown}, phi) + d({crown}, work)/sin(gamma))
+        = {opposite}cos(gamma)/sin(gamma)*dot({n_gen}, cross(e1, {gen}))
+where: sin δ ≠ 0
+
+hobbed-crown | face-hobbed | HOBBED
+The blank turns by φw - N_b/N θ, with R = N_c/N by N_c/N times the turn φc - ν of a crown gear; in that crown gear the
+place of the blade is free of φc: all positions of the cradle cut one crown tooth, and members with one crown tooth are
+conjugate.
+    {work}@({index}@vec(x, y, z)) = Rz({opposite}(work - index))@vec(x, y, z)
+    d(Rz({opposite}(phi - nu))@{hobbing}, phi) = vec(0, 0, 0)
+
+epicycloid | face-hobbed | HOBBED
+With an upright axis the reference point of the blade describes in the crown gear an extended epicycloid: a circle that
+turns by θ + ν while its centre, at the radial setting, turns by ν.
+    Rz({opposite}(phi - nu))@{drawn} = Rz({h}(q + nu))@vec(Sr, 0, z) + Rz({h}(q + nu + theta))@{arm}
+
+hobbed-milled | face-hobbed | HOBBED
+A cutter of no blade groups with its blade in the plane of the axis mills: any edge is where the machine of face-milled
+members has it.
+    {milling} = {cut}
+
+formate-cradle | conjugate pairs | PAIR
+Where the pinion's cradle is the gear itself, γm = Σ - 90°, Em = E, XD = 0 and R = N2/N1, the machine moves as the pair
+of the description does in mesh, turned over: what it cuts is conjugate to the gear, for any offset.
+    rolled = meshed
+
+offset | assembly | PAIR
+The offset shifts the pinion along the common perpendicular and does nothing else: without it the hypoid pair is a bevel
+pair.
+    hypoid - vec(0, E, 0) = bevel
+
+assembly-axis | assembly | PAIR
+The pinion's axis is (sin Σ, 0, cos Σ); it turns by φ1 about minus that axis.
+    pinion_axis = vec(sin(Sigma), 0, cos(Sigma))
+    d(hypoid, phi1) = -cross(vec(sin(Sigma), 0, cos(Sigma)), hypoid - vec(0, E, 0))
+""",
+    globals(),
+    both,
 )
 
 CHAPTER = Chapter(DOCUMENT, CLAIMS)

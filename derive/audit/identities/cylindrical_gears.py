@@ -4,9 +4,9 @@ from collections.abc import Mapping
 
 from derive.audit.claims import Document, scope
 from derive.audit.described import Described
-from derive.audit.identities.conventions import identity
 from derive.audit.identities.helicoids import tool
 from derive.audit.ledger import Chapter
+from derive.audit.paragraphs import identities
 from derive.prove.tree import Tree
 
 DOCUMENT = Document(
@@ -278,234 +278,177 @@ K = mat([kappa1 + kappa2*cos(chi)**2, kappa2*cos(chi)*sin(chi)], [kappa2*cos(chi
 """,
 )
 
-REGULAR = ["∂Y/∂l ≠ 0: sin α + E′ cos α ≠ 0", "r ≠ 0", "cos β ≠ 0"]
+#: Conditions of every modified rack.
+REGULAR = """where: ∂Y/∂l ≠ 0: sin α + E′ cos α ≠ 0
+where: r ≠ 0
+where: cos β ≠ 0"""
 
-CLAIMS = (
-    identity(
-        "outward",
-        "description",
-        "The description's outward normal of the rack, with any modification of the profile and the drive's crowning "
-        "and slope of the lead, is its normal.",
-        "outward = n",
-        OWN_LEAD,
-        conditions=["cos β ≠ 0"],
-    ),
-    identity(
-        "meshing",
-        "equation of meshing",
-        "The velocity in the description's rolling is (rφ − Y, X, 0) in the rack: the equation of meshing for every "
-        "modification, plunge and feed.",
-        "dot(n_free, d(free, phi)) = (r*phi - Y)*n.x + X*n.y",
-        MODIFIED,
-        conditions=REGULAR[1:],
-    ),
-    identity(
-        "explicit",
-        "generation",
-        "The turn by which the description solves it. It needs the profile's slope in the same section alone.",
-        ["(r*turn - Y)*n.x + X*n.y = 0", "n.x*d(X, l) + n.y*d(Y, l) = 0"],
-        MODIFIED,
-        conditions=REGULAR,
-    ),
-    identity(
-        "tangent",
-        "gear normal",
-        "The rack's normal, turned with the gear, is the normal of the modified gear flank; written in the rack's "
-        "frame, in which the gear turns.",
-        ["dot(n, gear_l) = 0", "dot(n, gear_Z) = 0"],
-        MODIFIED,
-        conditions=REGULAR,
-    ),
-    identity(
-        "undercut",
-        "undercut",
-        "For every modification the flank is singular exactly where r Y′ + X(Y′ + X′²/Y′) + X²(X′/Y′)′ = 0, primes at "
-        "a fixed section.",
-        "triple(gear_l, gear_Z, n) = -s*dot(n, n)*undercut/(r*d(Y, l))",
-        MODIFIED,
-        conditions=REGULAR,
-    ),
-    identity(
-        "limit",
-        "undercut",
-        "Without modifications that is X = −r sin² α_t.",
-        "undercut = -s*(X + r*sin_t**2)/(sin_t**2*cos(beta))*sin(alpha)",
-        INVOLUTE,
-        conditions=["sin α ≠ 0", "cos β ≠ 0"],
-    ),
-    identity(
-        "involute",
-        "involute helicoid",
-        "Rolling a straight edge gives R = Rz(θ)(r_b, sϱ, Z): the involute of the base circle in every section. The "
-        "turn is linear in ϱ and Z, θ = turn − s α_t.",
-        [
-            "tangent@vec(r_b, s*rho, Z) = body",
-            "r*turn = s*(h/cos(beta) + xm*sin(alpha)/(cos(alpha)*cos(beta)) + r*sin_t/cos_t - rho*r/r_b)"
-            " + Z*sin(beta)/cos(beta)",
-        ],
-        INVOLUTE,
-        conditions=["sin α ≠ 0", "cos α ≠ 0", "cos β ≠ 0"],
-    ),
-    identity(
-        "base-helix",
-        "involute helicoid",
-        "sin β_b = sin β cos α, tan β_b = tan β cos α_t and cos α_t cos β_b = cos α cos β agree.",
-        [
-            "sine_of_base_helix = sin(beta)*cos(alpha)",
-            "sin(beta)*cos(alpha)/cos_b = sin(beta)/cos(beta)*cos_t",
-            "tangent_over*cos_t = tangent_under*sin_t",
-            "r_b = r*cos_t",
-            "sine_of_base_helix**2 + cos_b**2 = 1",
-            "cos_t*cos_b = cos(alpha)*cos(beta)",
-            "cos_t**2 + sin_t**2 = 1",
-        ],
-        INVOLUTE,
-        conditions=["cos β_b ≠ 0"],
-    ),
-    identity(
-        "normal",
-        "involute helicoid",
-        "The unmodified rack has one normal, a unit vector.",
-        ["n = normal/cos(beta)", "outward = normal/cos(beta)", "dot(normal, normal) = 1"],
-        INVOLUTE,
-        conditions=["cos β ≠ 0"],
-    ),
-    identity(
-        "moment",
-        "no transmission error",
-        "Every flank normal has the moment s (m z/2) cos α about the gear's axis, r cos β = m z/2: it touches the base "
-        "cylinder. Hence z1 ω1 = z2 ω2 at any contact, for any position of the axes, with a fixed common normal.",
-        ["dot(normal, cross(k, body)) = s*r*cos(beta)*cos(alpha)", "r*cos(beta)*cos(alpha) = r_b*cos_b"],
-        INVOLUTE,
-        conditions=["sin α ≠ 0", "cos β ≠ 0"],
-    ),
-    identity(
-        "screw",
-        "involute helicoid",
-        "The flank moves along itself: n·(k × R + p k) = 0 with p = r/tan β.",
-        "dot(normal, cross(k, body) + p*k) = 0",
-        INVOLUTE,
-        conditions=["sin α ≠ 0", "sin β ≠ 0"],
-    ),
-    identity(
-        "curvature",
-        "relative curvature",
-        "The flank is developable: Gauss's curvature is 0, and its mean curvature H half of the other principal one, "
-        "-cos β_b/ϱ along the outward normal.",
-        [
-            "L2*N2 - M2**2 = 0",
-            "(E1*N2 - 2*F1*M2 + G1*L2)*rho = -cos_b*(E1*G1 - F1**2)",
-        ],
-        CURVED,
-        conditions=["sin α ≠ 0", "cos β ≠ 0", "ϱ ≠ 0"],
-    ),
-    identity(
-        "zi-worm",
-        "involute helicoid",
-        "It is the ZI worm of the lead angle 90° − β, turned about its axis: ϱ = r_b tan a at the profile angle a, the "
-        "same base radius, and in screw motion the same height.",
-        [
-            "turn_a@worm - worm.z*k = vec(r_b, s*r_b*sin(a)/cos(a), 0)",
-            "worm.z + p*(linear + s*a) = Z + s*(w + p*psi)",
-            "r_b**2*(1 + (sin(alpha)/(cos(alpha)*cos(beta)))**2) = r**2",
-        ],
-        CURVED,
-        conditions=["cos a ≠ 0", "cos α ≠ 0", "sin β ≠ 0"],
-    ),
-    identity(
-        "screw-symmetry",
-        "profile modifications",
-        "With modifications of the profile alone every transverse section is the same, turned by Z tan β/r: on "
-        "parallel axes contact runs along the face at constant l and the transmission error is constant.",
-        [
-            "d(body, Z) = k",
-            "r*d(turn, Z) = sin(beta)/cos(beta)",
-            "d(n, Z) = vec(0, 0, 0)",
-            "z1/r1 = z2/r2",
-        ],
-        PROFILE,
-        conditions=REGULAR,
-    ),
-    identity(
-        "parallel-crowned",
-        "lead crowning",
-        "A plunge c Z² leaves point, turn and normal in the middle of the face as they are to first order, for every "
-        "l: parallel gears touch there, without transmission error. Along the generator, which crosses the face by "
-        "cos β_b in unit length, it falls back from the normal by 2 c sin α cos² β_b.",
-        [
-            "body - vec(straight + r, -ratio*straight, Z) = -c*Z**2*vec(1, -ratio, 0)",
-            "r*turn = Y + straight*ratio - c*Z**2*ratio",
-            "n = normal/cos(beta) + 2*c*Z*sin(alpha)/cos(beta)*k",
-            "dot(normal, vec(1, -ratio, 0))*sin(alpha) = cos_b**2",
-        ],
-        CROWNED,
-        conditions=["sin α ≠ 0", "cos β ≠ 0"],
-    ),
-    identity(
-        "slopes",
-        "slope corrections",
-        "A constant slope of profile or lead leaves one rack normal and with it an exact involute helicoid.",
-        ["d(n, l) = vec(0, 0, 0)", "d(n, Z) = vec(0, 0, 0)", "dot(n, cross(k, body)) = r*n.y"],
-        SLOPED,
-        conditions=REGULAR,
-    ),
-    identity(
-        "plunge",
-        "lead crowning",
-        "A plunge δ and a feed δ tan α/cos β move a straight edge into the same line: they cut the same flank.",
-        "plunged = fed",
-        EDGES,
-        conditions=["cos α ≠ 0", "cos β ≠ 0"],
-    ),
-    identity(
-        "mirror",
-        "mirror image",
-        "The other flank of the gear of the other hand is the mirror image y → −y.",
-        "mirrored = reflect@rack",
-        EDGES,
-        conditions=["cos β ≠ 0"],
-    ),
-    identity(
-        "spur-limit",
-        "spherical family",
-        "With β = 0 and x = 0 the edge is that of a spur gear of the spherical family, counted from its datum line.",
-        "spur = edge",
-        EDGES,
-        conditions=["cos α ≠ 0"],
-    ),
-    identity(
-        "common-normal",
-        "crossed axes",
-        "At Σ = β1 + β2 the common normal has the rack's pressure angle, whatever the centre distance.",
-        [
-            "dot(n, n) = 1",
-            "dot(n, k) = -s*sin(beta1)*cos(alpha)",
-            "dot(n_wheel, n_wheel) = 1",
-            "dot(n, k2) = -dot(n_wheel, k)",
-            "dot(n, k2) = s*sin(beta2)*cos(alpha)",
-        ],
-        CROSSED,
-    ),
-    identity(
-        "zero-backlash",
-        "crossed axes",
-        "There the lengths that both involutes roll off add up to A sin α for A = r1 + r2 + (x1 + x2) m.",
-        "length = A*sin(alpha)",
-        CROSSED,
-        conditions=["cos α ≠ 0", "cos β1 ≠ 0", "cos β2 ≠ 0"],
-    ),
-    identity(
-        "cylinders",
-        "relative curvature",
-        "Of any two crossed cylinders, not read from the drive: these are the principal relative curvatures, by their "
-        "sum and their product.",
-        [
-            "least + most = entry(K, 1, 1) + entry(K, 2, 2)",
-            "least*most = entry(K, 1, 1)*entry(K, 2, 2) - entry(K, 1, 2)**2",
-            "least*most = kappa1*kappa2*sin(chi)**2",
-        ],
-        CYLINDERS,
-    ),
+CLAIMS = identities(
+    f"""
+outward | description | OWN_LEAD
+The description's outward normal of the rack, with any modification of the profile and the drive's crowning and slope of
+the lead, is its normal.
+    outward = n
+where: cos β ≠ 0
+
+meshing | equation of meshing | MODIFIED
+The velocity in the description's rolling is (rφ − Y, X, 0) in the rack: the equation of meshing for every modification,
+plunge and feed.
+    dot(n_free, d(free, phi)) = (r*phi - Y)*n.x + X*n.y
+where: r ≠ 0
+where: cos β ≠ 0
+
+explicit | generation | MODIFIED
+The turn by which the description solves it. It needs the profile's slope in the same section alone.
+    (r*turn - Y)*n.x + X*n.y = 0
+    n.x*d(X, l) + n.y*d(Y, l) = 0
+{REGULAR}
+
+tangent | gear normal | MODIFIED
+The rack's normal, turned with the gear, is the normal of the modified gear flank; written in the rack's frame, in which
+the gear turns.
+    dot(n, gear_l) = 0
+    dot(n, gear_Z) = 0
+{REGULAR}
+
+undercut | undercut | MODIFIED
+For every modification the flank is singular exactly where r Y′ + X(Y′ + X′²/Y′) + X²(X′/Y′)′ = 0, primes at a fixed
+section.
+    triple(gear_l, gear_Z, n) = -s*dot(n, n)*undercut/(r*d(Y, l))
+{REGULAR}
+
+limit | undercut | INVOLUTE
+Without modifications that is X = −r sin² α_t.
+    undercut = -s*(X + r*sin_t**2)/(sin_t**2*cos(beta))*sin(alpha)
+where: sin α ≠ 0
+where: cos β ≠ 0
+
+involute | involute helicoid | INVOLUTE
+Rolling a straight edge gives R = Rz(θ)(r_b, sϱ, Z): the involute of the base circle in every section. The turn is
+linear in ϱ and Z, θ = turn − s α_t.
+    tangent@vec(r_b, s*rho, Z) = body
+    r*turn = s*(h/cos(beta) + xm*sin(alpha)/(cos(alpha)*cos(beta)) + r*sin_t/cos_t - rho*r/r_b) + Z*sin(beta)/cos(beta)
+where: sin α ≠ 0
+where: cos α ≠ 0
+where: cos β ≠ 0
+
+base-helix | involute helicoid | INVOLUTE
+sin β_b = sin β cos α, tan β_b = tan β cos α_t and cos α_t cos β_b = cos α cos β agree.
+    sine_of_base_helix = sin(beta)*cos(alpha)
+    sin(beta)*cos(alpha)/cos_b = sin(beta)/cos(beta)*cos_t
+    tangent_over*cos_t = tangent_under*sin_t
+    r_b = r*cos_t
+    sine_of_base_helix**2 + cos_b**2 = 1
+    cos_t*cos_b = cos(alpha)*cos(beta)
+    cos_t**2 + sin_t**2 = 1
+where: cos β_b ≠ 0
+
+normal | involute helicoid | INVOLUTE
+The unmodified rack has one normal, a unit vector.
+    n = normal/cos(beta)
+    outward = normal/cos(beta)
+    dot(normal, normal) = 1
+where: cos β ≠ 0
+
+moment | no transmission error | INVOLUTE
+Every flank normal has the moment s (m z/2) cos α about the gear's axis, r cos β = m z/2: it touches the base cylinder.
+Hence z1 ω1 = z2 ω2 at any contact, for any position of the axes, with a fixed common normal.
+    dot(normal, cross(k, body)) = s*r*cos(beta)*cos(alpha)
+    r*cos(beta)*cos(alpha) = r_b*cos_b
+where: sin α ≠ 0
+where: cos β ≠ 0
+
+screw | involute helicoid | INVOLUTE
+The flank moves along itself: n·(k × R + p k) = 0 with p = r/tan β.
+    dot(normal, cross(k, body) + p*k) = 0
+where: sin α ≠ 0
+where: sin β ≠ 0
+
+curvature | relative curvature | CURVED
+The flank is developable: Gauss's curvature is 0, and its mean curvature H half of the other principal one, -cos β_b/ϱ
+along the outward normal.
+    L2*N2 - M2**2 = 0
+    (E1*N2 - 2*F1*M2 + G1*L2)*rho = -cos_b*(E1*G1 - F1**2)
+where: sin α ≠ 0
+where: cos β ≠ 0
+where: ϱ ≠ 0
+
+zi-worm | involute helicoid | CURVED
+It is the ZI worm of the lead angle 90° − β, turned about its axis: ϱ = r_b tan a at the profile angle a, the same base
+radius, and in screw motion the same height.
+    turn_a@worm - worm.z*k = vec(r_b, s*r_b*sin(a)/cos(a), 0)
+    worm.z + p*(linear + s*a) = Z + s*(w + p*psi)
+    r_b**2*(1 + (sin(alpha)/(cos(alpha)*cos(beta)))**2) = r**2
+where: cos a ≠ 0
+where: cos α ≠ 0
+where: sin β ≠ 0
+
+screw-symmetry | profile modifications | PROFILE
+With modifications of the profile alone every transverse section is the same, turned by Z tan β/r: on parallel axes
+contact runs along the face at constant l and the transmission error is constant.
+    d(body, Z) = k
+    r*d(turn, Z) = sin(beta)/cos(beta)
+    d(n, Z) = vec(0, 0, 0)
+    z1/r1 = z2/r2
+{REGULAR}
+
+parallel-crowned | lead crowning | CROWNED
+A plunge c Z² leaves point, turn and normal in the middle of the face as they are to first order, for every l: parallel
+gears touch there, without transmission error. Along the generator, which crosses the face by cos β_b in unit length, it
+falls back from the normal by 2 c sin α cos² β_b.
+    body - vec(straight + r, -ratio*straight, Z) = -c*Z**2*vec(1, -ratio, 0)
+    r*turn = Y + straight*ratio - c*Z**2*ratio
+    n = normal/cos(beta) + 2*c*Z*sin(alpha)/cos(beta)*k
+    dot(normal, vec(1, -ratio, 0))*sin(alpha) = cos_b**2
+where: sin α ≠ 0
+where: cos β ≠ 0
+
+slopes | slope corrections | SLOPED
+A constant slope of profile or lead leaves one rack normal and with it an exact involute helicoid.
+    d(n, l) = vec(0, 0, 0)
+    d(n, Z) = vec(0, 0, 0)
+    dot(n, cross(k, body)) = r*n.y
+{REGULAR}
+
+plunge | lead crowning | EDGES
+A plunge δ and a feed δ tan α/cos β move a straight edge into the same line: they cut the same flank.
+    plunged = fed
+where: cos α ≠ 0
+where: cos β ≠ 0
+
+mirror | mirror image | EDGES
+The other flank of the gear of the other hand is the mirror image y → −y.
+    mirrored = reflect@rack
+where: cos β ≠ 0
+
+spur-limit | spherical family | EDGES
+With β = 0 and x = 0 the edge is that of a spur gear of the spherical family, counted from its datum line.
+    spur = edge
+where: cos α ≠ 0
+
+common-normal | crossed axes | CROSSED
+At Σ = β1 + β2 the common normal has the rack's pressure angle, whatever the centre distance.
+    dot(n, n) = 1
+    dot(n, k) = -s*sin(beta1)*cos(alpha)
+    dot(n_wheel, n_wheel) = 1
+    dot(n, k2) = -dot(n_wheel, k)
+    dot(n, k2) = s*sin(beta2)*cos(alpha)
+
+zero-backlash | crossed axes | CROSSED
+There the lengths that both involutes roll off add up to A sin α for A = r1 + r2 + (x1 + x2) m.
+    length = A*sin(alpha)
+where: cos α ≠ 0
+where: cos β1 ≠ 0
+where: cos β2 ≠ 0
+
+cylinders | relative curvature | CYLINDERS
+Of any two crossed cylinders, not read from the drive: these are the principal relative curvatures, by their sum and
+their product.
+    least + most = entry(K, 1, 1) + entry(K, 2, 2)
+    least*most = entry(K, 1, 1)*entry(K, 2, 2) - entry(K, 1, 2)**2
+    least*most = kappa1*kappa2*sin(chi)**2
+""",
+    globals(),
 )
 
 CHAPTER = Chapter(DOCUMENT, CLAIMS)

@@ -5,8 +5,8 @@ Explicit wheel, contact, limit points and meshing axes at any shaft angle, for e
 
 from derive.audit.claims import Document, scope
 from derive.audit.described import Described
-from derive.audit.identities.conventions import identity
 from derive.audit.ledger import Chapter
+from derive.audit.paragraphs import identities
 
 DOCUMENT = Document(
     key="cylindrical_worm",
@@ -119,129 +119,88 @@ q = vec((Dy*Wz - Dz*Wy)/(Dy**2 + Dz**2), 0, 0)
 """,
 )
 
-CLAIMS = (
-    identity(
-        "meshing",
-        "equation of meshing",
-        "Velocity form and derivative form are the same function, at any shaft angle and for every profile.",
-        "f = dot(n_wheel, d(wheel, (phi, 1), (phi2, m)))",
-        HOBBING,
-    ),
-    identity(
-        "normal",
-        "wheel normal",
-        "The hob's normal stays perpendicular to the hob's tangents in the wheel's frame.",
-        ["dot(n_wheel, d(wheel, t)) = 0", "dot(n_wheel, d(wheel, psi)) = 0"],
-        HOBBING,
-    ),
-    identity(
-        "sum-angle",
-        "reduction",
-        "Meshing does not change when ψ and φh change by opposite amounts, but for the height z = P_z + pψ: only "
-        "their sum and z matter.",
-        "d(f, (psi, 1), (phi, -1)) = m*p*dot(n, cross(k2, k))",
-        HOBBING,
-    ),
-    identity(
-        "explicit",
-        "reduction",
-        "The equation of meshing is linear in z; with this z it vanishes. The relation n·(k × r) = -p n_z of every "
-        "helicoid defines p here.",
-        "f = 0",
-        EXPLICIT,
-        conditions=["n_x ≠ 0 (beyond it lies the spurious sheet)", "sin Σ ≠ 0"],
-    ),
-    identity(
-        "linear",
-        "reduction",
-        "The slope in z is -m n_x sin Σ, so the solution is unique where it is not 0.",
-        "d(dot(vec(nx, ny, nz), cross(k, vec(x, y, zz)) + m*cross(k2, vec(x, y, zz) - vec(A, 0, 0))), zz) = "
-        "m*nx*sin(Sigma)",
-        EXPLICIT,
-    ),
-    identity(
-        "contact",
-        "contact",
-        "n2 perpendicular to both tangents of the other surface is the same as n2 parallel to its normal: two scalar "
-        "equations for the papers' three.",
-        "cross(n2, cross(t1, t2)) = t1*dot(n2, t2) - t2*dot(n2, t1)",
-        ANY,
-        conditions=["t1 × t2 ≠ 0"],
-    ),
-    identity(
-        "both-systems",
-        "the papers' system and ours",
-        "The papers solve six equations with meshing f = 0 among them; we put the height of the hob point into the "
-        "other five. f is its slope times (height - explicit height), and the wheel's point and normal in (t, ψ, φ) "
-        "are ours in (t, Ψ = ψ + φ, height): each system has the other's solutions, for every profile.",
-        [
-            "f = m*n.x*sin(Sigma)*(r.z - height)",
-            "wheel = Rz(phi2)@(Rx(Sigma)@(Rz(psi + phi)@P + vec(0, 0, p*psi) - A*i))",
-            "n_wheel = Rz(phi2)@(Rx(Sigma)@(Rz(psi + phi)@section))",
-        ],
-        HOBBING,
-        conditions=["n_x ≠ 0", "sin Σ ≠ 0", "m ≠ 0"],
-    ),
-    identity(
-        "both-normals",
-        "the papers' system and ours",
-        "The papers' common normal, n2 a multiple of t1 × t2, gives our two equations; and of three equations between "
-        "components of unit normals the first two give the third but for its sign.",
-        [
-            "dot(share*cross(t1, t2), t1) = 0",
-            "dot(share*cross(t1, t2), t2) = 0",
-            "dot(t1, t1) - dot(n2, n2) = (a1 - c1)*(a1 + c1) + (a2 - c2)*(a2 + c2) + (a3 - c3)*(a3 + c3)",
-        ],
-        ANY,
-        conditions=["share ≠ 0; which side of the surfaces is told by the flank, not by the equations"],
-    ),
-    identity(
-        "columns",
-        "Jacobian",
-        "Columns of the Jacobian of a helicoid in mesh, for every profile: along the profile, along the screw, and "
-        "with the worm's own turn, of its point and of its normal.",
-        [
-            "d(placed, t) = Rz(phi1 + psi)@d(P, t)",
-            "d(placed, psi) = cross(k, placed) + p*k",
-            "d(placed, phi1) = cross(k, placed)",
-            "d(n, psi) = cross(k, n)",
-            "d(n, phi1) = cross(k, n)",
-        ],
-        WORM,
-    ),
-    identity(
-        "undercut",
-        "limit of the wheel flank",
-        "The singular function of the explicit surface is the division-free one of the three-parameter surface over "
-        "f_φ.",
-        "dot(cross(R_l + phi_l*R_phi, R_psi + phi_psi*R_phi), n)*f_phi = dot(n, f_phi*cross(R_l, R_psi) + "
-        "f_l*cross(R_psi, R_phi) + f_psi*cross(R_phi, R_l))",
-        ANY,
-        conditions=["f_φ ≠ 0"],
-    ),
-    identity(
-        "twist",
-        "meshing axes",
-        "Adding any share τ of the worm's screw motion to the relative motion does not change meshing.",
-        "dot(n, cross(D, r) + W) = -f",
-        HOBBING,
-    ),
-    identity(
-        "axis",
-        "meshing axes",
-        "Where D·W = 0 that motion is a rotation about the line through q of direction D: every contact normal meets "
-        "it.",
-        "W - cross(q, D) = dot(D, W)/(Dy**2 + Dz**2)*D",
-        ANY,
-        conditions=["D ≠ 0", "D·W = 0"],
-    ),
-    identity(
-        "axis-quadratic",
-        "meshing axes",
-        "D·W is the quadratic in τ whose real roots give the meshing axes.",
-        "dot(D, W) = p*tau**2 - (p + p*m*cos(Sigma) + A*m*sin(Sigma))*tau + A*m*sin(Sigma)",
-        HOBBING,
-    ),
+CLAIMS = identities(
+    """
+meshing | equation of meshing | HOBBING
+Velocity form and derivative form are the same function, at any shaft angle and for every profile.
+    f = dot(n_wheel, d(wheel, (phi, 1), (phi2, m)))
+
+normal | wheel normal | HOBBING
+The hob's normal stays perpendicular to the hob's tangents in the wheel's frame.
+    dot(n_wheel, d(wheel, t)) = 0
+    dot(n_wheel, d(wheel, psi)) = 0
+
+sum-angle | reduction | HOBBING
+Meshing does not change when ψ and φh change by opposite amounts, but for the height z = P_z + pψ: only their sum and z
+matter.
+    d(f, (psi, 1), (phi, -1)) = m*p*dot(n, cross(k2, k))
+
+explicit | reduction | EXPLICIT
+The equation of meshing is linear in z; with this z it vanishes. The relation n·(k × r) = -p n_z of every helicoid
+defines p here.
+    f = 0
+where: n_x ≠ 0 (beyond it lies the spurious sheet)
+where: sin Σ ≠ 0
+
+linear | reduction | EXPLICIT
+The slope in z is -m n_x sin Σ, so the solution is unique where it is not 0.
+    d(dot(vec(nx, ny, nz), cross(k, vec(x, y, zz)) + m*cross(k2, vec(x, y, zz) - vec(A, 0, 0))), zz) = m*nx*sin(Sigma)
+
+contact | contact | ANY
+n2 perpendicular to both tangents of the other surface is the same as n2 parallel to its normal: two scalar equations
+for the papers' three.
+    cross(n2, cross(t1, t2)) = t1*dot(n2, t2) - t2*dot(n2, t1)
+where: t1 × t2 ≠ 0
+
+both-systems | the papers' system and ours | HOBBING
+The papers solve six equations with meshing f = 0 among them; we put the height of the hob point into the other five. f
+is its slope times (height - explicit height), and the wheel's point and normal in (t, ψ, φ) are ours in (t, Ψ = ψ + φ,
+height): each system has the other's solutions, for every profile.
+    f = m*n.x*sin(Sigma)*(r.z - height)
+    wheel = Rz(phi2)@(Rx(Sigma)@(Rz(psi + phi)@P + vec(0, 0, p*psi) - A*i))
+    n_wheel = Rz(phi2)@(Rx(Sigma)@(Rz(psi + phi)@section))
+where: n_x ≠ 0
+where: sin Σ ≠ 0
+where: m ≠ 0
+
+both-normals | the papers' system and ours | ANY
+The papers' common normal, n2 a multiple of t1 × t2, gives our two equations; and of three equations between components
+of unit normals the first two give the third but for its sign.
+    dot(share*cross(t1, t2), t1) = 0
+    dot(share*cross(t1, t2), t2) = 0
+    dot(t1, t1) - dot(n2, n2) = (a1 - c1)*(a1 + c1) + (a2 - c2)*(a2 + c2) + (a3 - c3)*(a3 + c3)
+where: share ≠ 0; which side of the surfaces is told by the flank, not by the equations
+
+columns | Jacobian | WORM
+Columns of the Jacobian of a helicoid in mesh, for every profile: along the profile, along the screw, and with the
+worm's own turn, of its point and of its normal.
+    d(placed, t) = Rz(phi1 + psi)@d(P, t)
+    d(placed, psi) = cross(k, placed) + p*k
+    d(placed, phi1) = cross(k, placed)
+    d(n, psi) = cross(k, n)
+    d(n, phi1) = cross(k, n)
+
+undercut | limit of the wheel flank | ANY
+The singular function of the explicit surface is the division-free one of the three-parameter surface over f_φ.
+    dot(cross(R_l + phi_l*R_phi, R_psi + phi_psi*R_phi), n)*f_phi
+        = dot(n, f_phi*cross(R_l, R_psi) + f_l*cross(R_psi, R_phi) + f_psi*cross(R_phi, R_l))
+where: f_φ ≠ 0
+
+twist | meshing axes | HOBBING
+Adding any share τ of the worm's screw motion to the relative motion does not change meshing.
+    dot(n, cross(D, r) + W) = -f
+
+axis | meshing axes | ANY
+Where D·W = 0 that motion is a rotation about the line through q of direction D: every contact normal meets it.
+    W - cross(q, D) = dot(D, W)/(Dy**2 + Dz**2)*D
+where: D ≠ 0
+where: D·W = 0
+
+axis-quadratic | meshing axes | HOBBING
+D·W is the quadratic in τ whose real roots give the meshing axes.
+    dot(D, W) = p*tau**2 - (p + p*m*cos(Sigma) + A*m*sin(Sigma))*tau + A*m*sin(Sigma)
+""",
+    globals(),
 )
 
 CHAPTER = Chapter(DOCUMENT, CLAIMS)

@@ -2,8 +2,8 @@
 
 from derive.audit.claims import Document, scope
 from derive.audit.described import Described
-from derive.audit.identities.conventions import identity
 from derive.audit.ledger import Chapter
+from derive.audit.paragraphs import identities
 
 DOCUMENT = Document(
     key="face_worm",
@@ -96,69 +96,47 @@ JOINED = scope(
     | _joined("concave", "-1", "pi/2 - alpha_g", "(rho_f*(1 - sin(alpha_g)) - h_d)/cos(alpha_g)"),
 )
 
-CLAIMS = (
-    identity(
-        "hobbing",
-        "description",
-        "The equation of meshing in the fixed frame is the normal against the velocity in the motion of the "
-        "description that cuts the reference wheel.",
-        "f = dot(n_wheel, d(wheel, (psi, 1), (phi2, m)))",
-        HOB,
-    ),
-    identity(
-        "harmonic",
-        "hob-cut reference",
-        "At fixed surface parameters the equation of meshing is a cos ε + b sin ε + c in the hob's angle, so the "
-        "reference surface is explicit.",
-        "d(d(d(f, psi), psi), psi) = -d(f, psi)",
-        HOB,
-    ),
-    identity(
-        "cone-normal",
-        "gear flank",
-        "Outward unit normal of the gear's tool, a cone, out of the gear tooth.",
-        [
-            "dot(n_cone, d(cone, u)) = 0",
-            "dot(n_cone, d(cone, theta)) = 0",
-            "dot(n_cone, n_cone) = 1",
-            "cone.x**2 + cone.y**2 = (Rg + cone.z*tan(alpha))**2",
-        ],
-        TOOL,
-        conditions=["cos αg ≠ 0"],
-    ),
-    identity(
-        "fillet-join",
-        "fillet",
-        "At λ = 90° + σ αg the fillet's torus meets the cone at u_t, on either side of the gear tooth ...",
-        ["join_convex = cone_convex", "join_concave = cone_concave"],
-        JOINED,
-        conditions=["cos αg ≠ 0"],
-    ),
-    identity(
-        "fillet-tangent",
-        "fillet",
-        "... with the same normal, the torus' as everywhere along its arc.",
-        [
-            "n_join_convex = rf*n_cone_convex",
-            "n_join_concave = rf*n_cone_concave",
-            "dot(n_torus, d(torus, lam)) = 0",
-            "dot(n_torus, d(torus, theta)) = 0",
-        ],
-        JOINED,
-    ),
-    identity(
-        "blade-normal",
-        "worm tool",
-        "The parabolic blade's outward normal; at u = 0 it is the cone's, turned over, so both tools touch along the "
-        "mid line.",
-        [
-            "dot(n_blade, d(blade, u)) = 0",
-            "dot(n_blade, d(blade, theta)) = 0",
-            "blade = cone + ac*u**2*n_cone",
-            "n_middle = -n_cone",
-        ],
-        TOOL,
-    ),
+CLAIMS = identities(
+    """
+hobbing | description | HOB
+The equation of meshing in the fixed frame is the normal against the velocity in the motion of the description that cuts
+the reference wheel.
+    f = dot(n_wheel, d(wheel, (psi, 1), (phi2, m)))
+
+harmonic | hob-cut reference | HOB
+At fixed surface parameters the equation of meshing is a cos ε + b sin ε + c in the hob's angle, so the reference
+surface is explicit.
+    d(d(d(f, psi), psi), psi) = -d(f, psi)
+
+cone-normal | gear flank | TOOL
+Outward unit normal of the gear's tool, a cone, out of the gear tooth.
+    dot(n_cone, d(cone, u)) = 0
+    dot(n_cone, d(cone, theta)) = 0
+    dot(n_cone, n_cone) = 1
+    cone.x**2 + cone.y**2 = (Rg + cone.z*tan(alpha))**2
+where: cos αg ≠ 0
+
+fillet-join | fillet | JOINED
+At λ = 90° + σ αg the fillet's torus meets the cone at u_t, on either side of the gear tooth ...
+    join_convex = cone_convex
+    join_concave = cone_concave
+where: cos αg ≠ 0
+
+fillet-tangent | fillet | JOINED
+... with the same normal, the torus' as everywhere along its arc.
+    n_join_convex = rf*n_cone_convex
+    n_join_concave = rf*n_cone_concave
+    dot(n_torus, d(torus, lam)) = 0
+    dot(n_torus, d(torus, theta)) = 0
+
+blade-normal | worm tool | TOOL
+The parabolic blade's outward normal; at u = 0 it is the cone's, turned over, so both tools touch along the mid line.
+    dot(n_blade, d(blade, u)) = 0
+    dot(n_blade, d(blade, theta)) = 0
+    blade = cone + ac*u**2*n_cone
+    n_middle = -n_cone
+""",
+    globals(),
 )
 
 CHAPTER = Chapter(DOCUMENT, CLAIMS)

@@ -1,9 +1,9 @@
 """Helicoids: one identity for every profile, then the flank forms of ISO 10828 as they are generated."""
 
 from derive.audit.claims import Document, scope
-from derive.audit.described import Described
-from derive.audit.identities.conventions import identity
+from derive.audit.described import Described, Factors
 from derive.audit.ledger import Chapter
+from derive.audit.paragraphs import identities
 
 DOCUMENT = Document(
     key="helicoids",
@@ -70,6 +70,24 @@ CONE_OF_ZK = tool("zk", {}, {"t_worm": "theta", "u_worm": "u"})
 ZC = tool("zc", {}, {"t_worm": "theta", "xi_worm": "xi", "rho_c_worm": "rho_c"})
 CONE, DISC = ZK.sweep("pinion"), ZC.sweep("pinion")
 
+
+def turned(drive: Described) -> dict:
+    """A worm's edge, its outward normal, and the flank that the edge sweeps."""
+    return {
+        "P": drive.edge("pinion"),
+        "outward": drive.normal("pinion"),
+        "swept": drive.carried(drive.sweep("pinion"), "P"),
+    }
+
+
+def ground(drive: Described, motion: Factors) -> dict:
+    """A point of a grinding wheel and its normal in the worm's frame, before the screw motion."""
+    return {
+        "P": drive.carried(motion, drive.edge("pinion")),
+        "n": drive.turned(motion, drive.edge_normal("pinion")),
+    }
+
+
 STRAIGHT = scope(
     "helicoids.straight-blade",
     """
@@ -78,11 +96,7 @@ in_section = Rx(-lam)@P
 n = outward
 """,
     signs=["s"],
-    described=lambda: {
-        "P": ZN.edge("pinion"),
-        "outward": ZN.normal("pinion"),
-        "swept": ZN.carried(ZN.sweep("pinion"), "P"),
-    },
+    described=lambda: turned(ZN),
 )
 
 #: The edge where it lies half the groove's width from the middle.
@@ -93,68 +107,25 @@ PITCH_POINT = scope(
     described=lambda: {"P": tool("zn", {}).edge("pinion")},
 )
 
-AXIAL = scope(
-    "helicoids.axial-blade",
-    "n = outward",
-    signs=["s"],
-    described=lambda: {
-        "P": ZA.edge("pinion"),
-        "outward": ZA.normal("pinion"),
-        "swept": ZA.carried(ZA.sweep("pinion"), "P"),
-    },
-)
-
+AXIAL = scope("helicoids.axial-blade", "n = outward", signs=["s"], described=lambda: turned(ZA))
 INVOLUTE = scope(
-    "helicoids.involute",
-    "n = outward",
-    signs=["s"],
-    described=lambda: {
-        "rho": ZI.name("t_worm"),
-        "P": ZI.edge("pinion"),
-        "outward": ZI.normal("pinion"),
-        "swept": ZI.carried(ZI.sweep("pinion"), "P"),
-    },
+    "helicoids.involute", "n = outward", signs=["s"], described=lambda: {"rho": ZI.name("t_worm"), **turned(ZI)}
 )
-
-#: Disc and arc in the worm's frame, before the screw motion.
 GROUND = scope(
-    "helicoids.grinding-wheel",
-    """
-k = vec(0, 0, 1)
-p = r*tan(lam)
-""",
-    signs=["s"],
-    described=lambda: {
-        "P": ZK.carried(CONE, ZK.edge("pinion")),
-        "n": ZK.turned(CONE, ZK.edge_normal("pinion")),
-    },
+    "helicoids.grinding-wheel", "k = vec(0, 0, 1)\np = r*tan(lam)", signs=["s"], described=lambda: ground(ZK, CONE)
 )
-
-ARC = scope(
-    "helicoids.arc",
-    """
-k = vec(0, 0, 1)
-""",
-    signs=["s"],
-    described=lambda: {
-        "P": ZC.carried(DISC, ZC.edge("pinion")),
-        "n": ZC.turned(DISC, ZC.edge_normal("pinion")),
-    },
-)
+ARC = scope("helicoids.arc", "k = vec(0, 0, 1)", signs=["s"], described=lambda: ground(ZC, DISC))
 
 #: The arc where it touches the cone, whose generatrix passes through the same point of the pitch circle.
 ARC_END = scope(
     "helicoids.arc-end",
-    """
-xi = 0
-u = 0
-""",
+    "xi = 0\nu = 0",
     signs=["s"],
     described=lambda: {
-        "arc": ZC.carried(DISC, ZC.edge("pinion")),
-        "cone": CONE_OF_ZK.carried(CONE, CONE_OF_ZK.edge("pinion")),
-        "arc_normal": ZC.turned(DISC, ZC.edge_normal("pinion")),
-        "cone_normal": CONE_OF_ZK.turned(CONE, CONE_OF_ZK.edge_normal("pinion")),
+        "arc": ground(ZC, DISC)["P"],
+        "cone": ground(CONE_OF_ZK, CONE)["P"],
+        "arc_normal": ground(ZC, DISC)["n"],
+        "cone_normal": ground(CONE_OF_ZK, CONE)["n"],
     },
 )
 
@@ -163,7 +134,7 @@ MIDDLE = scope(
     "helicoids.grinding-wheel-middle",
     "theta = 0",
     signs=["s"],
-    described=lambda: {"P": ZK.carried(CONE, ZK.edge("pinion"))},
+    described=lambda: {"P": ground(ZK, CONE)["P"]},
 )
 
 ROUNDING = scope(
@@ -183,141 +154,100 @@ tube = Rz(psi)@(R*radial + rho*N) + vec(0, 0, p*psi)
     jets={"Px": ("t",), "Py": ("t",), "Pz": ("t",)},
 )
 
-CLAIMS = (
-    identity(
-        "helicoid",
-        "any profile",
-        "A helicoid moves along itself: n·(k × r + p k) = 0, for every profile.",
-        "dot(normal, cross(k, R) + p*k) = 0",
-        GENERIC,
-    ),
-    identity(
-        "normal",
-        "any profile",
-        "The normal is that of the section, turned by ψ: it need be formed only once.",
-        "normal = Rz(psi)@section",
-        GENERIC,
-    ),
-    identity(
-        "rounding-normal",
-        "hob tip",
-        "The tube around the helix of a ball's centre has the ball's radius as its normal, in both directions ...",
-        ["dot(N, N) = 1", "dot(Rz(psi)@N, d(tube, xi)) = 0", "dot(Rz(psi)@N, d(tube, psi)) = 0"],
-        ROUNDING,
-    ),
-    identity(
-        "rounding-join",
-        "hob tip",
-        "... it touches any flank from which the centre lies along the normal, which is square to the helix: the "
-        "tube's own normal there is the flank's.",
-        ["dot(n, T) = 0", "Rz(-psi)@(d(C, psi)) = T"],
-        ROUNDING,
-    ),
-    identity(
-        "rounding-tip",
-        "hob tip",
-        "At ξ = 0 the tube's normal is radial and its point the ball's radius farther out than the centre: it touches "
-        "the tip cylinder of that radius.",
-        ["R*radial + rho*radial = (R + rho)*vec(cos(a), sin(a), 0)", "dot(radial, around) = 0"],
-        ROUNDING,
-    ),
-    identity(
-        "zn-width",
-        "ZN",
-        "The straight edge crosses the reference cylinder where the groove is S wide.",
-        ["P.x**2 + P.y**2 = r**2"],
-        PITCH_POINT,
-        conditions=["r ≥ S sin λ / 2"],
-    ),
-    identity(
-        "zn-straight",
-        "ZN",
-        "Turned back by λ the edge lies in a plane and is straight.",
-        ["in_section.y = 0", "d(d(P, t), t) = vec(0, 0, 0)", "dot(d(P, t), d(P, t)) = 1"],
-        STRAIGHT,
-    ),
-    identity(
-        "za-normal",
-        "ZA",
-        "The description's outward normal (z′ρ, p, -ρ) with z′ = tan α / cos λ, times the flank's sign, is normal to "
-        "the helicoid of the straight axial edge.",
-        [
-            "dot(n, d(P, rho)) = 0",
-            "dot(n, vec(-P.y, P.x, p)) = 0",
-            "dot(Rz(psi)@n, d(swept, psi)) = 0",
-            "d(P.z, rho)*cos(lam) = s*tan(alpha)",
-        ],
-        AXIAL,
-    ),
-    identity(
-        "zi-normal",
-        "ZI",
-        "With ρ = r_b/cos a_t and z = s p inv a_t the same holds, and the slope dz/dρ is s p tan a_t/ρ.",
-        [
-            "dot(n, d(P, at)) = 0",
-            "dot(n, vec(-P.y, P.x, p)) = 0",
-            "dot(Rz(psi)@n, d(swept, psi)) = 0",
-            "d(P.z, at) = s*p*tan(at)/rho*d(rho, at)",
-        ],
-        INVOLUTE,
-        conditions=["ρ ≥ r_b"],
-    ),
-    identity(
-        "zk-normal",
-        "ZK",
-        "The grinding wheel's unit normal is perpendicular to the profile and to the screw motion: it is the worm's "
-        "normal, no derivative needed.",
-        ["dot(n, d(P, theta)) = 0", "dot(n, cross(k, P) + p*k) = 0", "dot(n, n) = 1"],
-        GROUND,
-        conditions=["cos θ ≠ 0", "sin λ ≠ 0"],
-    ),
-    identity(
-        "zk-radius",
-        "ZK",
-        "At θ = 0 the profile has the radius at which a ZI of equal size touches it, whatever the grinding wheel.",
-        "P.x**2 + P.y**2 = (r - S/2*sin(alpha)*cos(alpha))**2 + (S/2*cos(alpha)**2*sin(lam))**2",
-        MIDDLE,
-    ),
-    identity(
-        "zc-normal",
-        "ZC",
-        "The arc's unit normal is perpendicular to the grinding wheel in both directions; the arc has the radius ρc.",
-        [
-            "dot(n, d(P, theta)) = 0",
-            "dot(n, d(P, xi)) = 0",
-            "dot(n, n) = 1",
-            "dot(d(P, xi), d(P, xi)) = rho_c**2",
-        ],
-        ARC,
-    ),
-    identity(
-        "zc-meshing",
-        "ZC",
-        "At fixed θ the equation of meshing of the grinding wheel is a cos ξ + b sin ξ with no constant, so the "
-        "contact point is explicit: the two directions that solve it are opposite.",
-        "d(d(dot(n, cross(k, P) + r*tan(lam)*k), xi), xi) = -dot(n, cross(k, P) + r*tan(lam)*k)",
-        ARC,
-        conditions=["(a, b) ≠ (0, 0)"],
-    ),
-    identity(
-        "zn-normal",
-        "ZN",
-        "The straight edge's normal is perpendicular to the edge and to the screw motion.",
-        [
-            "dot(n, d(P, t)) = 0",
-            "dot(n, cross(vec(0, 0, 1), P) + p*vec(0, 0, 1)) = 0",
-            "dot(Rz(psi)@n, d(swept, psi)) = 0",
-        ],
-        STRAIGHT,
-    ),
-    identity(
-        "zc-limit",
-        "ZC",
-        "On the pitch circle of the grinding wheel the disc of form C has the point and the normal of the cone of "
-        "form K, at every θ: the arc touches the cone's generatrix there.",
-        ["arc = cone", "arc_normal = cone_normal"],
-        ARC_END,
-    ),
+CLAIMS = identities(
+    """
+helicoid | any profile | GENERIC
+A helicoid moves along itself: n·(k × r + p k) = 0, for every profile.
+    dot(normal, cross(k, R) + p*k) = 0
+
+normal | any profile | GENERIC
+The normal is that of the section, turned by ψ: it need be formed only once.
+    normal = Rz(psi)@section
+
+rounding-normal | hob tip | ROUNDING
+The tube around the helix of a ball's centre has the ball's radius as its normal, in both directions ...
+    dot(N, N) = 1
+    dot(Rz(psi)@N, d(tube, xi)) = 0
+    dot(Rz(psi)@N, d(tube, psi)) = 0
+
+rounding-join | hob tip | ROUNDING
+... it touches any flank from which the centre lies along the normal, which is square to the helix: the tube's own
+normal there is the flank's.
+    dot(n, T) = 0
+    Rz(-psi)@(d(C, psi)) = T
+
+rounding-tip | hob tip | ROUNDING
+At ξ = 0 the tube's normal is radial and its point the ball's radius farther out than the centre: it touches the tip
+cylinder of that radius.
+    R*radial + rho*radial = (R + rho)*vec(cos(a), sin(a), 0)
+    dot(radial, around) = 0
+
+zn-width | ZN | PITCH_POINT
+The straight edge crosses the reference cylinder where the groove is S wide.
+    P.x**2 + P.y**2 = r**2
+where: r ≥ S sin λ / 2
+
+zn-straight | ZN | STRAIGHT
+Turned back by λ the edge lies in a plane and is straight.
+    in_section.y = 0
+    d(d(P, t), t) = vec(0, 0, 0)
+    dot(d(P, t), d(P, t)) = 1
+
+za-normal | ZA | AXIAL
+The description's outward normal (z′ρ, p, -ρ) with z′ = tan α / cos λ, times the flank's sign, is normal to the helicoid
+of the straight axial edge.
+    dot(n, d(P, rho)) = 0
+    dot(n, vec(-P.y, P.x, p)) = 0
+    dot(Rz(psi)@n, d(swept, psi)) = 0
+    d(P.z, rho)*cos(lam) = s*tan(alpha)
+
+zi-normal | ZI | INVOLUTE
+With ρ = r_b/cos a_t and z = s p inv a_t the same holds, and the slope dz/dρ is s p tan a_t/ρ.
+    dot(n, d(P, at)) = 0
+    dot(n, vec(-P.y, P.x, p)) = 0
+    dot(Rz(psi)@n, d(swept, psi)) = 0
+    d(P.z, at) = s*p*tan(at)/rho*d(rho, at)
+where: ρ ≥ r_b
+
+zk-normal | ZK | GROUND
+The grinding wheel's unit normal is perpendicular to the profile and to the screw motion: it is the worm's normal, no
+derivative needed.
+    dot(n, d(P, theta)) = 0
+    dot(n, cross(k, P) + p*k) = 0
+    dot(n, n) = 1
+where: cos θ ≠ 0
+where: sin λ ≠ 0
+
+zk-radius | ZK | MIDDLE
+At θ = 0 the profile has the radius at which a ZI of equal size touches it, whatever the grinding wheel.
+    P.x**2 + P.y**2 = (r - S/2*sin(alpha)*cos(alpha))**2 + (S/2*cos(alpha)**2*sin(lam))**2
+
+zc-normal | ZC | ARC
+The arc's unit normal is perpendicular to the grinding wheel in both directions; the arc has the radius ρc.
+    dot(n, d(P, theta)) = 0
+    dot(n, d(P, xi)) = 0
+    dot(n, n) = 1
+    dot(d(P, xi), d(P, xi)) = rho_c**2
+
+zc-meshing | ZC | ARC
+At fixed θ the equation of meshing of the grinding wheel is a cos ξ + b sin ξ with no constant, so the contact point is
+explicit: the two directions that solve it are opposite.
+    d(d(dot(n, cross(k, P) + r*tan(lam)*k), xi), xi) = -dot(n, cross(k, P) + r*tan(lam)*k)
+where: (a, b) ≠ (0, 0)
+
+zn-normal | ZN | STRAIGHT
+The straight edge's normal is perpendicular to the edge and to the screw motion.
+    dot(n, d(P, t)) = 0
+    dot(n, cross(vec(0, 0, 1), P) + p*vec(0, 0, 1)) = 0
+    dot(Rz(psi)@n, d(swept, psi)) = 0
+
+zc-limit | ZC | ARC_END
+On the pitch circle of the grinding wheel the disc of form C has the point and the normal of the cone of form K, at
+every θ: the arc touches the cone's generatrix there.
+    arc = cone
+    arc_normal = cone_normal
+""",
+    globals(),
 )
 
 CHAPTER = Chapter(DOCUMENT, CLAIMS)

@@ -2,8 +2,8 @@
 
 from derive.audit.claims import Document, scope
 from derive.audit.described import Described
-from derive.audit.identities.conventions import identity
 from derive.audit.ledger import Chapter
+from derive.audit.paragraphs import identities
 
 DOCUMENT = Document(
     key="spherical_gears",
@@ -78,67 +78,53 @@ def both(*texts: str) -> list[str]:
     ]
 
 
-CLAIMS = (
-    identity(
-        "half-angle",
-        "sweep",
-        "The cancellation-free form u cos θ - 2σR sin²(θ/2) is the swept edge's coordinate; u is that of the edge.",
-        both("{rack}.x = {edge}.x*cos(theta) {opposite} 2*R*sin(theta/2)**2"),
-        CUT,
-    ),
-    identity(
-        "normal",
-        "rack normal",
-        "The description's outward normal of the swept rack is its unit normal.",
-        both("cross(d({rack}, l), d({rack}, theta)) = -(s*{rho})*{n}", "dot({n}, {n}) = 1"),
-        CUT,
-        conditions=["ρ = R + σu > 0"],
-    ),
-    identity(
-        "meshing",
-        "equation of meshing",
-        "Envelope condition of the description's rolling and the source's (2.13) are the same function.",
-        both("dot({n_free}, d({free}, phi)) = (r*phi - {rack}.y)*{n}.x + {rack}.x*{n}.y"),
-        CUT,
-    ),
-    identity(
-        "explicit",
-        "generation",
-        "The turn by which the description solves the equation of meshing solves it, with no condition left.",
-        both("(r*{turn} - {rack}.y)*{n}.x + {rack}.x*{n}.y = 0"),
-        CUT,
-        conditions=["sin α ≠ 0", "cos θ ≠ 0"],
-    ),
-    identity(
-        "tangent",
-        "gear normal",
-        "The rack's normal, turned with the gear, is the normal of the gear flank.",
-        both("dot({n_gear}, d({gear}, l)) = 0", "dot({n_gear}, d({gear}, theta)) = 0"),
-        CUT,
-        conditions=["sin α ≠ 0", "cos θ ≠ 0"],
-    ),
-    identity(
-        "moment",
-        "no transmission error",
-        "Every flank normal has the same moment s r cos α about the gear's axis, whatever the contact point. Hence ω1 "
-        "r1 cos α = ω2 r2 cos α "
-        "at any contact, aligned or not: the transmission error is constant.",
-        both("dot({n_gear}, cross(k, {gear})) = s*r*cos(alpha)"),
-        CUT,
-        conditions=["sin α ≠ 0", "cos θ ≠ 0"],
-    ),
-    identity(
-        "undercut",
-        "undercut",
-        "The singular function of the gear flank is the closed form times a factor that does not vanish: rank "
-        "condition and closed form are the same.",
-        both(
-            "triple(d({gear}, l), d({gear}, theta), {n_gear}) = -(s*{rho}/(r*sin(alpha)**2))*"
-            "(r*sin(alpha)**2 + {rack}.x*(1 + cos(alpha)**2*R/{rho}*tan(theta)**2/cos(theta)))"
-        ),
-        CUT,
-        conditions=["ρ > 0", "r > 0", "sin α ≠ 0"],
-    ),
+CLAIMS = identities(
+    """
+half-angle | sweep | CUT
+The cancellation-free form u cos θ - 2σR sin²(θ/2) is the swept edge's coordinate; u is that of the edge.
+    {rack}.x = {edge}.x*cos(theta) {opposite} 2*R*sin(theta/2)**2
+
+normal | rack normal | CUT
+The description's outward normal of the swept rack is its unit normal.
+    cross(d({rack}, l), d({rack}, theta)) = -(s*{rho})*{n}
+    dot({n}, {n}) = 1
+where: ρ = R + σu > 0
+
+meshing | equation of meshing | CUT
+Envelope condition of the description's rolling and the source's (2.13) are the same function.
+    dot({n_free}, d({free}, phi)) = (r*phi - {rack}.y)*{n}.x + {rack}.x*{n}.y
+
+explicit | generation | CUT
+The turn by which the description solves the equation of meshing solves it, with no condition left.
+    (r*{turn} - {rack}.y)*{n}.x + {rack}.x*{n}.y = 0
+where: sin α ≠ 0
+where: cos θ ≠ 0
+
+tangent | gear normal | CUT
+The rack's normal, turned with the gear, is the normal of the gear flank.
+    dot({n_gear}, d({gear}, l)) = 0
+    dot({n_gear}, d({gear}, theta)) = 0
+where: sin α ≠ 0
+where: cos θ ≠ 0
+
+moment | no transmission error | CUT
+Every flank normal has the same moment s r cos α about the gear's axis, whatever the contact point. Hence ω1 r1 cos α =
+ω2 r2 cos α at any contact, aligned or not: the transmission error is constant.
+    dot({n_gear}, cross(k, {gear})) = s*r*cos(alpha)
+where: sin α ≠ 0
+where: cos θ ≠ 0
+
+undercut | undercut | CUT
+The singular function of the gear flank is the closed form times a factor that does not vanish: rank condition and
+closed form are the same.
+    triple(d({gear}, l), d({gear}, theta), {n_gear})
+        = -(s*{rho}/(r*sin(alpha)**2))*(r*sin(alpha)**2 + {rack}.x*(1 + cos(alpha)**2*R/{rho}*tan(theta)**2/cos(theta)))
+where: ρ > 0
+where: r > 0
+where: sin α ≠ 0
+""",
+    globals(),
+    both,
 )
 
 CHAPTER = Chapter(DOCUMENT, CLAIMS)

@@ -12,7 +12,7 @@ from functools import reduce as fold
 
 import sympy as sp
 
-from derive.audit.kernel.translate import Term, _written
+from derive.audit.kernel.translate import Term, collect, conjunction, reified, written
 from derive.drives import cylindrical_worm
 from derive.language import vectors as v
 from derive.language.definitions import Definitions
@@ -148,7 +148,7 @@ class _File:
     def theorem(self, name: str, stated: str, left: sp.Expr, right: sp.Expr, slopes: list) -> str:
         """An equality in which every Derive has been rewritten, decided on the circles of its angles."""
         sides = [self.term(left), self.term(right)]
-        generators = sorted(set(_variables(sides[0].node)) | set(_variables(sides[1].node)))
+        generators = sorted(collect(sides[1].node, collect(sides[0].node, {})))
         generators += [g.replace("(sin ", "(cos ") for g in generators if g.startswith("(sin ")]
         generators = list(dict.fromkeys(generators))
         place = {g: k for k, g in enumerate(generators)}
@@ -165,15 +165,12 @@ class _File:
         numbered = {k: k + 1 for k in place.values()}
         squares = {g: f"PEmul (PEX Z {k + 1}) (PEX Z {k + 1})" for g, k in place.items()}
         pairs = "; ".join(
-            f"({_written(_sparse(cofactor), numbered)}, "
-            f"PEsub ({squares[r.generator]}) ({_written(_sparse(r.square), numbered)}))"
+            f"({written(_sparse(cofactor), numbered)}, "
+            f"PEsub ({squares[r.generator]}) ({written(_sparse(r.square), numbered)}))"
             for r, cofactor in zip(relations, reduction.cofactors, strict=True)
         )
-        held = "I"
-        for relation in reversed(relations):
-            fact = "h" if relation.kind == "sign" else f"(circle {relation.generator[5:-1]})"
-            held = f"(conj {fact} {held})"
-        reified = [_reified(side.node, place) for side in sides]
+        held = conjunction(["h" if r.kind == "sign" else f"(circle {r.generator[5:-1]})" for r in relations])
+        left_text, right_text = (reified(side.node, {g: k + 1 for g, k in place.items()}) for side in sides)
         rewritten = "".join(
             f"  rewrite (is_derive_unique _ _ _ ({axis}_{variable} {self.binder})).\n" for axis, variable in slopes
         )
@@ -181,26 +178,9 @@ class _File:
             f"Theorem {name} {self.typed} : s * s - 1 = 0 ->\n  {stated}.\nProof.\n  intros h.\n{rewritten}"
             f"  unfold normal_x, normal_y, normal_z{', meshing' if stated.startswith('meshing') else ''}.\n"
             f"  transitivity ({self.real(right)}); [|ring].\n"
-            f"  refine (proved [{'; '.join(generators)}]\n    ({reified[0]})\n    ({reified[1]})\n    [{pairs}] [] []\n"
+            f"  refine (proved [{'; '.join(generators)}]\n    ({left_text})\n    ({right_text})\n    [{pairs}] [] []\n"
             f"    {held} I I _).\n  vm_cast_no_check (eq_refl true).\nQed.\n"
         )
-
-
-def _variables(node: tuple):
-    if node[0] == "Var":
-        yield node[1]
-    elif node[0] != "Int":
-        for part in node[1:]:
-            yield from _variables(part)
-
-
-def _reified(node: tuple, place: dict) -> str:
-    match node:
-        case ("Var", name):
-            return f"Var {place[name] + 1}"
-        case ("Int", number):
-            return f"Int ({number})"
-    return f"{node[0]} " + " ".join(f"({_reified(part, place)})" for part in node[1:])
 
 
 def _terms(place: dict, terms: dict) -> dict:

@@ -17,61 +17,16 @@ from typing import Any
 
 from derive.audit.checker import certificates, numbers, points, polynomials, record, trees
 
+#: Names that Coq or Certificate.v has.
 RESERVED = frozenset(
-    [
-        "R",
-        "I",
-        "N",
-        "Z",
-        "S",
-        "O",
-        "C",
-        "E",
-        "Set",
-        "Prop",
-        "Type",
-        "SProp",
-        "as",
-        "at",
-        "by",
-        "cofix",
-        "else",
-        "end",
-        "exists",
-        "exists2",
-        "fix",
-        "for",
-        "forall",
-        "fun",
-        "if",
-        "in",
-        "let",
-        "match",
-        "mod",
-        "open",
-        "return",
-        "then",
-        "using",
-        "where",
-        "with",
-        "exp",
-        "ln",
-        "sin",
-        "cos",
-        "tan",
-        "sqrt",
-        "pow",
-        "PI",
-        "Var",
-        "Int",
-        "Add",
-        "Mul",
-        "Opp",
-        "Inv",
-        "value",
-        "proved",
-        "by_reduction",
-    ]
+    re.findall(
+        r"\w+",
+        """
+        R I N Z S O C E Set Prop Type SProp as at by cofix else end exists exists2 fix for forall fun if in let match
+        mod open return then using where with exp ln sin cos tan sqrt pow PI Var Int Add Mul Opp Inv value proved
+        by_reduction
+        """,
+    )
 )
 
 
@@ -223,7 +178,7 @@ def _theorem(name: str, head: str, left, right, pairs: list, generators: list[An
     sides = [part.node if isinstance(part, Term) else ("Int", 0) for part in (left, right)]
     variables: dict[str, int] = {}
     for side in sides:
-        _collect(side, variables)
+        collect(side, variables)
     for cofactor, generator, square in pairs:
         for terms in (cofactor, square, {((generators.index(generator), 2),): 1}):
             for key in terms:
@@ -244,25 +199,25 @@ def _theorem(name: str, head: str, left, right, pairs: list, generators: list[An
     hypotheses += [f"{_shown(node, names)} <> 0" for node in divisors]
     hypotheses += [f"{_polynomial(terms, shown)} <> 0" for terms in scale]
     relations = "; ".join(
-        f"({_written(cofactor, place)}, PEsub (PEmul (PEX Z {variables[g]}) (PEX Z {variables[g]})) "
-        f"({_written(square, place)}))"
+        f"({written(cofactor, place)}, PEsub (PEmul (PEX Z {variables[g]}) (PEX Z {variables[g]})) "
+        f"({written(square, place)}))"
         for cofactor, g, square in pairs
     )
     lemma = "proved"
     if len(relations) > LONGEST:
         lemma = "by_reduction"
-        relations = "; ".join(f"({variables[g]}%positive, {_written(square, place)})" for _, g, square in pairs)
+        relations = "; ".join(f"({variables[g]}%positive, {written(square, place)})" for _, g, square in pairs)
     given = " ".join(f"h{k}" for k in range(len(hypotheses)))
-    held = _conjunction([f"h{k}" for k in range(len(pairs))])
+    held = conjunction([f"h{k}" for k in range(len(pairs))])
     split = len(pairs) + len(divisors)
-    divided = _conjunction([f"h{k}" for k in range(len(pairs), split)])
-    scaled = _conjunction([f"h{k}" for k in range(split, len(hypotheses))])
+    divided = conjunction([f"h{k}" for k in range(len(pairs), split)])
+    scaled = conjunction([f"h{k}" for k in range(split, len(hypotheses))])
     quantified = f"forall ({' '.join(names.values())} : R), " if names else ""
     binder = " ".join([*names.values(), given]).strip()
     stated = " ->\n  ".join([*hypotheses, f"{_shown(sides[0], names)}\n  = {_shown(sides[1], names)}"])
-    left_text, right_text = (_reified(side, variables) for side in sides)
-    divisor_text = "; ".join(_reified(node, variables) for node in divisors)
-    scale_text = "; ".join(_written(terms, place) for terms in scale)
+    left_text, right_text = (reified(side, variables) for side in sides)
+    divisor_text = "; ".join(reified(node, variables) for node in divisors)
+    scale_text = "; ".join(written(terms, place) for terms in scale)
     return Theorem(
         name,
         f"{head}Theorem {name} : {quantified}\n  {stated}.\nProof.\n"
@@ -273,19 +228,21 @@ def _theorem(name: str, head: str, left, right, pairs: list, generators: list[An
     )
 
 
-def _conjunction(names: Sequence[str]) -> str:
+def conjunction(names: Sequence[str]) -> str:
     text = "I"
     for name in reversed(names):
         text = f"(conj {name} {text})"
     return text
 
 
-def _collect(node: tuple, variables: dict[str, int]) -> None:
+def collect(node: tuple, variables: dict[str, int]) -> dict[str, int]:
+    """Numbers of the variables, from 1 on, with those that an expression adds."""
     if node[0] == "Var":
         variables.setdefault(node[1], len(variables) + 1)
     elif node[0] != "Int":
         for part in node[1:]:
-            _collect(part, variables)
+            collect(part, variables)
+    return variables
 
 
 def _divisors(node: tuple) -> Iterator[tuple]:
@@ -325,20 +282,20 @@ def _shown(node: tuple, names: Mapping[str, str]) -> str:
             raise ValueError(f"{node[0]} is no node of a term")
 
 
-def _reified(node: tuple, variables: Mapping[str, int]) -> str:
+def reified(node: tuple, variables: Mapping[str, int]) -> str:
     match node:
         case ("Var", name):
             return f"Var {variables[name]}"
         case ("Int", number):
             return f"Int ({number})"
-    return f"{node[0]} " + " ".join(f"({_reified(part, variables)})" for part in node[1:])
+    return f"{node[0]} " + " ".join(f"({reified(part, variables)})" for part in node[1:])
 
 
 def _monomials(terms: dict) -> list[tuple[tuple, int]]:
     return sorted(terms.items(), reverse=True)
 
 
-def _written(terms: dict, place: Mapping[int, int]) -> str:
+def written(terms: dict, place: Mapping[int, int]) -> str:
     """A polynomial as an expression of Coq's ring tactic."""
     text = ""
     for key, amount in _monomials(terms):

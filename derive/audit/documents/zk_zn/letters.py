@@ -187,5 +187,3 @@ V_hob = T(machine)@d(locus, (phih, 1), (phi2, m2h))
     extends=GRINDING,
     described=lambda: {name: HOBBING.definitions[name] for name in ("locus", "machine")},
 )
-
-LOST = "the signs are lost in the extraction"
