@@ -74,8 +74,9 @@ def _points(drive, result, rows, kinds, along, found):
         return mirror.flip * (np.einsum("nij,nj->ni", back[:, :3, :3], mirror.flip * found.points) + back[:, :3, 3])
 
     body_points = {name: only(values, in_body(name)) for name, values in points.body_points.items()}
+    on_limits = single & np.array([member is not None for member in found.members], dtype=bool)
     messages = [text if not one else f"{text}: {found.words(i)}, at {_height(found, body_points, i)}"
-                for i, (text, one) in enumerate(zip(messages, single, strict=True))]  # fmt: skip
+                for i, (text, one) in enumerate(zip(messages, on_limits, strict=True))]  # fmt: skip
 
     return replace(
         points,
@@ -96,5 +97,5 @@ def _points(drive, result, rows, kinds, along, found):
 
 def _height(found, body_points, i):
     """Where along its own axis the member whose limit holds place i touches, which says at which end of the teeth."""
-    member = found.holders[i][0]
+    member = found.members[i] if found.members[i] != "both" else found.holders[i][0]
     return f"z = {body_points[member][i, 2]:.4g} mm of the {member}"

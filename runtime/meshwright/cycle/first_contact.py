@@ -318,6 +318,10 @@ class TouchingLine:
     ends: tuple[tuple[str | None, str], ...]
     curvatures: np.ndarray
 
+    def __getstate__(self):
+        """What another process can be given: the points, without C's memory."""
+        return self.__dict__ | {"places": None}
+
     @property
     def middle(self):
         """The place nearest to the middle of its length."""

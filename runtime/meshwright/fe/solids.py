@@ -107,7 +107,8 @@ def _middle_pair(window: Window, pitch: float) -> Callable[[float], int]:
     """The pair in the middle at each pinion angle: the reference pair up to half a pitch about 0, where it touches, or
     else about the middle of its contact.
     """
-    ends = [end.angle for end in (window.begin, window.end) if end is not None and end.angle is not None]
+    angles = [end.angle for end in (window.begin, window.end) if end is not None and end.angle is not None]
+    ends = [angle for angle in angles if math.isfinite(angle)]
     middle = 0.0 if len(ends) < 2 or min(ends) <= 0.0 <= max(ends) else 0.5 * sum(ends)
 
     def pair(angle: float) -> int:
