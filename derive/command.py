@@ -38,8 +38,10 @@ from meshwright.base.worker import submit
 
 #: What is known of every drive before it is derived.
 FAMILIES = "families.json"
-#: Exit status of what is open where ``--strict`` is given, and of what is refused.
-OPEN, REFUSED = 1, 2
+#: Exit status of what is open where ``--strict`` is given.
+OPEN = 1
+#: Exit status of what is refused.
+REFUSED = 2
 
 
 @contextmanager
