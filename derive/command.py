@@ -13,8 +13,6 @@ A statement that is false or not decided of today's pages is open: it is said he
 and on its page, and nothing is cited from it. The C is written all the same, unless ``--strict`` makes it an error.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import multiprocessing

@@ -3,8 +3,6 @@
 It has the form of :mod:`meshwright.base.compile`, with the entry in ``audit/<drive>.json``.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import sys

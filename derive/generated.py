@@ -1,7 +1,5 @@
 """The folder of generated files: what a run replaces in it, adds to it and removes from it, by its manifest."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 

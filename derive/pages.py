@@ -3,8 +3,6 @@
 Both offer ``catalogue()``: name → function that builds the drive; what follows makes no difference between them.
 """
 
-from __future__ import annotations
-
 import importlib.util
 import re
 import sys

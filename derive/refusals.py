@@ -1,7 +1,5 @@
 """What the compiler cannot do, in words: the drive, the stage, the part, the line of the page and the remedy."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import TracebackType

@@ -4,8 +4,6 @@ Coq, walk from an equation or a C function to its sources, write the pages.
 Exit status: 0 done, 1 the record or a proof is rejected, 2 bad input.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import signal

@@ -4,8 +4,6 @@
 ``displayed.py`` makes the list from the texts.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import re

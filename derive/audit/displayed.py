@@ -7,8 +7,6 @@ stands literally. A text that is found nowhere is a transliteration, of formulas
 What judges each of them: ``coverage.py``.
 """
 
-from __future__ import annotations
-
 import argparse
 import hashlib
 import json

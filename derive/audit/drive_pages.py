@@ -4,8 +4,6 @@ the C functions that come of it, each with its line.
 Input: the texts of the generated files (description, metadata, header). Nothing is read from the drive's Python.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Iterator, Mapping, Sequence

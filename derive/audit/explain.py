@@ -1,7 +1,5 @@
 """Walk through the record as written: generated function -> equations -> definitions -> source lines."""
 
-from __future__ import annotations
-
 import difflib
 import json
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Side conditions of all generated drives in one table a family, for the pages."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -4,8 +4,6 @@ Input: chapters, each a document with its claims. Output: a Ledger whose `object
 JSON.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 

@@ -1,7 +1,5 @@
 """The record as pages to read: self-contained HTML with MathML, and one LaTeX file. No network, no script, no date."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence

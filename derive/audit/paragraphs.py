@@ -14,8 +14,6 @@ A line that is indented by eight goes on with the one before. A printed number s
 ``\n`` is the end of a printed line.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Trees of the record as one line of text, and in words where one was read."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 

@@ -5,8 +5,6 @@ definitions and the operations of the tape. How each stands is decided beside th
 (:mod:`derive.audit.standing`): what is not proved of this drive's definitions is open, and cited nowhere.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterator, Mapping
 from itertools import chain
 from typing import TypeAlias, TypedDict

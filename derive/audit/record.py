@@ -1,7 +1,5 @@
 """The whole record: which chapters there are, and the ledger built from them."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Mapping
 from functools import cache

@@ -3,8 +3,6 @@
 A pseudo node ("mark", tree) sets off the part in which two expressions differ.
 """
 
-from __future__ import annotations
-
 import re
 import unicodedata
 from collections.abc import Callable, Mapping

@@ -4,8 +4,6 @@ Nothing is looked up in a record that was written before: a statement holds of t
 moment, and of the pages on which they stand. One that is false, undecided or said of other pages is open.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import cache

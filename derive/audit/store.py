@@ -1,7 +1,5 @@
 """Write the record as files: canonical JSON, one object a line, in the order in which it was built."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Iterable, Mapping

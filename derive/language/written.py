@@ -1,7 +1,5 @@
 """Where a page has written what a message speaks of: file and line of the call that gave a thing its name."""
 
-from __future__ import annotations
-
 import dataclasses
 import os
 import re

@@ -5,8 +5,6 @@ has sixteen or thirty-two registers, so the program starts early what most other
 last use of a value is (list scheduling).
 """
 
-from __future__ import annotations
-
 import heapq
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace

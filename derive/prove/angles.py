@@ -4,8 +4,6 @@ A base angle is a symbol, or a defined name whose definition is no such combinat
 say): its cosine and sine are then generators of their own, moving at the rate of its value.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction

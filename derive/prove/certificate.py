@@ -1,7 +1,5 @@
 """Certificates: what shows a decision, as a plain object ready for canonical JSON."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from derive.prove.points import Point

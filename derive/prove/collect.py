@@ -5,8 +5,6 @@ pi, then names in the order of the alphabet, then what is composed, in that of i
 without right angles and with a positive first term.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from fractions import Fraction
 from functools import partial

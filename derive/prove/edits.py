@@ -3,8 +3,6 @@
 To find what a misprint should read, and to show that a derived equation tolerates none.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 

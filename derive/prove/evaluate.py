@@ -1,7 +1,5 @@
 """Interpret expression trees in the polynomial ring: a tree becomes a quotient, or three, or nine of them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import product

@@ -3,8 +3,6 @@
 Their leading terms are coprime, so they are a Groebner basis and the remainder is unique.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from derive.prove.polynomial import Terms

@@ -6,8 +6,6 @@ angle that depends on other values also occurs, their values are rational to 1e-
 1e-9.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction

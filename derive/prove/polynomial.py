@@ -3,8 +3,6 @@
 Python-flint where it is installed, SymPy's rings otherwise, one interface and equal results.
 """
 
-from __future__ import annotations
-
 from functools import cached_property
 from typing import Any, TypeAlias
 

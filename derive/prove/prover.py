@@ -5,8 +5,6 @@ Input: a Statement. Output: a Decision per scalar component. A remainder of zero
 vanishes; a point at which the sides differ is a refutation; anything else is undecided.
 """
 
-from __future__ import annotations
-
 import hashlib
 from dataclasses import dataclass
 from enum import StrEnum

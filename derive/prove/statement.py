@@ -1,7 +1,5 @@
 """A statement: two expression trees claimed to be equal, with the definitions of the names in them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property

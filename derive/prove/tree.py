@@ -14,8 +14,6 @@ A jet is the value of an unspecified function or of one of its derivatives: ("je
 one variable, ("jet", "x", 1, 0) is the first partial derivative of a function of two.
 """
 
-from __future__ import annotations
-
 import ast
 import json
 import re

@@ -1,7 +1,5 @@
 """Checks with any function in the place of the square root."""
 
-from __future__ import annotations
-
 from random import SystemRandom
 
 from .casadi_functions import check_casadi

@@ -3,8 +3,6 @@
 X is a drive's name.
 """
 
-from __future__ import annotations
-
 from .refusal import require
 from .straight_line import body_of
 

@@ -1,7 +1,5 @@
 """A check at inputs drawn anew until one is found at which all roots exist."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from itertools import repeat

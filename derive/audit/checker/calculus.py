@@ -1,7 +1,5 @@
 """Jacobian, step, derivatives along a path, flanks and their curvature against calculus."""
 
-from __future__ import annotations
-
 import re
 from random import Random
 

@@ -1,7 +1,5 @@
 """CasADi's own lists of instructions beside the C functions."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from random import Random
 

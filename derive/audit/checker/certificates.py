@@ -1,7 +1,5 @@
 """What shows an equation true or false: identities by integers, trees and points; refutations by a real point."""
 
-from __future__ import annotations
-
 import random
 import re
 from fractions import Fraction

@@ -17,8 +17,6 @@ Modulo a prime of 61 bits drawn at random, at random inputs, on both flanks:
              C and description
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import Iterator

@@ -27,8 +27,6 @@ Then, for every drive:
 A wrong program passes with a probability of about degree / 2^61.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 from collections.abc import Iterator

@@ -24,8 +24,6 @@ A normal that points the other way has the same length and is refused. A wrong p
 about degree / 2^61.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import Iterator

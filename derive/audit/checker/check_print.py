@@ -17,8 +17,6 @@ Laws, of every surface of every drive:
   derived    definitions that are slopes are the derivatives of what they are named after
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import Iterator

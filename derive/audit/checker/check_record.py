@@ -30,8 +30,6 @@ Degree and coefficients of lhs - rhs are bounded here, from the trees alone, bef
 that is printed at the end is the probability that a wrong certificate passes three random points.
 """
 
-from __future__ import annotations
-
 import math
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Contact, start, observation, placement, flanks and other functions beside the description."""
 
-from __future__ import annotations
-
 from random import Random
 
 from .description import Reader, inner

@@ -1,7 +1,5 @@
 """Rules, units, sizes, guards and design systems beside the description, and their changes."""
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Iterator

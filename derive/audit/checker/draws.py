@@ -1,7 +1,5 @@
 """Draws that all checks of a drive share, on both flanks."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from random import Random, SystemRandom
 

@@ -1,7 +1,5 @@
 """A drive: its description beside its functions, and inputs for both."""
 
-from __future__ import annotations
-
 import re
 from fractions import Fraction
 from random import Random

@@ -1,7 +1,5 @@
 """Edge contact, and limits and surfaces beyond first order."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from itertools import combinations_with_replacement, product

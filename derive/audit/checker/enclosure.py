@@ -1,7 +1,5 @@
 """Real numbers as exact fractions or enclosures, and printed numbers judged by them."""
 
-from __future__ import annotations
-
 import math
 import re
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Sine, cosine and arc: polynomials and reductions against enclosures in exact arithmetic."""
 
-from __future__ import annotations
-
 import math
 import re
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Each instance of the lanes, and derivatives by parameters, beside the scalar functions."""
 
-from __future__ import annotations
-
 import re
 from fractions import Fraction
 from random import Random

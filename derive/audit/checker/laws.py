@@ -1,7 +1,5 @@
 """Laws of enveloping: points made by chains, normals at right angles to the motion, contact, slopes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from random import Random
 

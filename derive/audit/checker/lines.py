@@ -1,7 +1,5 @@
 """Canonical JSON, one object a line, and its hash."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Numbers modulo a prime drawn at random, with rates along directions and the angle that they stand for."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The notation in which readings are written, read anew from their text."""
 
-from __future__ import annotations
-
 import ast
 import re
 

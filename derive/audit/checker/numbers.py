@@ -3,8 +3,6 @@
 The int 0 is an exact zero of every kind; no other int occurs as a value.
 """
 
-from __future__ import annotations
-
 import random
 
 from .refusal import require

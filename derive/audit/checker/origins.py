@@ -6,8 +6,6 @@ the last letter to the first: a name has the value of what stands for it. Where 
 letter of the document that is new in it takes the value that makes both equal.
 """
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from random import Random

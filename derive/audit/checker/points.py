@@ -1,7 +1,5 @@
 """What symbols, cosines, jets, roots and arcs are worth: modulo a prime, expanded, bounded, or at a real point."""
 
-from __future__ import annotations
-
 import random
 import re
 from fractions import Fraction

@@ -3,8 +3,6 @@
 As text: `2*0^2*4+-1*1`, coefficient * generator^power.
 """
 
-from __future__ import annotations
-
 import re
 
 from .refusal import require

@@ -1,7 +1,5 @@
 """What is printed of drives, read from its text."""
 
-from __future__ import annotations
-
 import ast
 import re
 from dataclasses import dataclass, replace

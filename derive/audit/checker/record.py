@@ -1,7 +1,5 @@
 """The objects of the record: their form, hashes and links."""
 
-from __future__ import annotations
-
 import hashlib
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What a checker ends in that does not accept what it reads."""
 
-from __future__ import annotations
-
 
 class Rejected(Exception):
     """The record is not what it claims to be; the message says where."""

@@ -1,7 +1,5 @@
 """The seal of all generated files, and what headers rest on."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import re

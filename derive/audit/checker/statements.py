@@ -1,7 +1,5 @@
 """Printed statements beside what a description says."""
 
-from __future__ import annotations
-
 from random import Random
 
 from .described import Described

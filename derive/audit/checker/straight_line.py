@@ -1,7 +1,5 @@
 """Generated C as text: straight-line functions, their tables of outputs, guards, lanes and constants."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterator

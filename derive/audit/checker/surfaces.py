@@ -1,7 +1,5 @@
 """Surfaces of a description: points, normals, tangents, second forms, singular functions, margins."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from .description import Reader, inner

@@ -1,7 +1,5 @@
 """Tables of the certified functions beside C and description."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Values of expression trees in any kind of number; derivatives by dual numbers."""
 
-from __future__ import annotations
-
 import re
 from fractions import Fraction
 

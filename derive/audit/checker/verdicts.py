@@ -1,7 +1,5 @@
 """Verdicts: bound to their source and text, and following from the certificates that they name."""
 
-from __future__ import annotations
-
 import re
 
 from .certificates import CHECKS, OUTCOME_OF_KIND

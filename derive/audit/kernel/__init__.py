@@ -5,8 +5,6 @@ derivatives.py  locus, normal and equation of meshing of the ZN wheel, with deri
 Certificate.v   what a certificate proves, itself proved in Coq: equalities of rational expressions by computation
 """
 
-from __future__ import annotations
-
 import resource
 import shutil
 import subprocess

@@ -6,8 +6,6 @@ locus is the description's product of motions; that its partial derivatives, the
 product with the third are the description's normal and equation of meshing, Coq proves.
 """
 
-from __future__ import annotations
-
 from functools import reduce as fold
 
 import sympy as sp

@@ -1,7 +1,5 @@
 """Measure what the checkers notice, and print it."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path

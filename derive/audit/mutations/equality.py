@@ -1,7 +1,5 @@
 """Whether a changed function, table or CasADi function returns what it returned, evaluated at random inputs."""
 
-from __future__ import annotations
-
 import random
 import re
 from contextlib import nullcontext

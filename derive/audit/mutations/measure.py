@@ -1,7 +1,5 @@
 """Changes of a drive, each put before the checks that may notice it."""
 
-from __future__ import annotations
-
 import json
 import random
 import tempfile

@@ -1,7 +1,5 @@
 """Changes of C: of functions in their text, of certified tables."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """Changes of CasADi's functions: one instruction at a time."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from types import ModuleType
 

@@ -1,7 +1,5 @@
 """Changes of a description: a wrong reading of one node of an expression or motion."""
 
-from __future__ import annotations
-
 import copy
 import random
 from collections.abc import Iterator

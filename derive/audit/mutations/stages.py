@@ -1,7 +1,5 @@
 """The stages of generated files that are changed, and what becomes of a change."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 GENERATED = Path(__file__).resolve().parents[3] / "generated"

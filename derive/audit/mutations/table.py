@@ -1,7 +1,5 @@
 """What became of the changes: a table by stage and function, and the one that is kept for the page of validation."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

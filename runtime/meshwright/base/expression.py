@@ -5,8 +5,6 @@ An expression is a name, a whole number, or a list or tuple ``[operation, operan
 ``derive/language/description.md`` lists their operations.
 """
 
-from __future__ import annotations
-
 import math
 import operator
 from collections.abc import Callable, Hashable, Mapping

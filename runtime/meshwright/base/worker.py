@@ -1,7 +1,5 @@
 """Work in a forked process while this one goes on."""
 
-from __future__ import annotations
-
 import multiprocessing
 import os
 import threading
