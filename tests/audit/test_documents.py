@@ -116,24 +116,3 @@ def test_every_identity_about_our_own_derivations_is_proved(verdicts):
 
 def test_nothing_is_undecided(verdicts):
     assert not [key for key, verdict in verdicts.items() if verdict.status == "undecided"]
-
-
-def test_every_numbered_equation_is_named(verdicts):
-    """Numbers that the extraction holds; the spherical report lacks every even page."""
-    numbered = {
-        "recess-action": set(range(1, 39)),
-        "rack-and-pinion": set(range(1, 6)),
-        "face-worm": set(range(1, 15)),
-        "zk-zn": set(range(1, 15)),
-    }
-    for document, numbers in numbered.items():
-        text = " ".join(verdict.claim.where for key, verdict in verdicts.items() if key.startswith(document + "/"))
-        missing = {n for n in numbers if not _mentions(text, n)}
-        assert not missing, f"{document}: {sorted(missing)}"
-
-
-def _mentions(text, number):
-    import re
-
-    ranges = re.findall(r"\((\d+)\)[–-]\((\d+)\)", text)
-    return f"({number})" in text or any(int(a) <= number <= int(b) for a, b in ranges)

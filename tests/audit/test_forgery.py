@@ -25,48 +25,11 @@ def test_a_record_that_is_only_hashed_again_holds(forger, record):
 # ---- mathematics -----------------------------------------------------------------------------------------------------
 
 
-def two_roots_one_name(forger):
-    """sqrt(2) = sqrt(3), both called sqrt0."""
-    roots = [{"radicand": n, "generator": "sqrt0", "divisor": "1"} for n in (2, 3)]
-    forger.proof(["sqrt", 2], ["sqrt", 3], roots=roots, text="sqrt(2) = sqrt(3)", lhs=["1.4"], rhs=["1.4"])
-
-
 def root_with_two_divisors(forger):
     """sqrt(x^2) = -sqrt(1) x, by a divisor whose sign is chosen."""
-    roots = [{"radicand": n, "generator": "sqrt0", "divisor": d} for n, d in ((4, "1"), (1, "-2"))]
+    roots = [root(4), root(1, divisor="-2")]
     forger.proof(["sqrt", 4], ["-", ["*", 2, ["sqrt", 1]]], roots=roots, generators=["sqrt0"],
                  text="sqrt(4) = -2*sqrt(1)", lhs=["2"], rhs=["-2"])  # fmt: skip
-
-
-def root_named_as_cosine(forger):
-    """sqrt(x) = cos(a)."""
-    roots = [{"radicand": "x", "generator": "cos(a)", "divisor": "1"}]
-    forger.proof(["sqrt", "x"], ["cos", "a"], roots=roots, angles=[{"symbol": "a", "divisor": 1}],
-                 text="sqrt(x) = cos(a)")  # fmt: skip
-
-
-def root_named_as_symbol(forger):
-    """sqrt(x) = y."""
-    roots = [{"radicand": "x", "generator": "y", "divisor": "1"}]
-    forger.proof(["sqrt", "x"], "y", roots=roots, text="sqrt(x) = y")
-
-
-def arc_named_as_symbol(forger):
-    """atan2(a, b) = z."""
-    tree = ["atan2", "a", "b"]
-    forger.proof(tree, "z", arcs=[{"tree": tree, "generator": "z"}], text="atan2(a, b) = z")
-
-
-def symbol_named_as_root(forger):
-    """A free symbol called sqrt0."""
-    roots = [{"radicand": "x", "generator": "sqrt0", "divisor": "1"}]
-    forger.proof(["sqrt", "x"], "sqrt0", roots=roots, text="sqrt(x) = sqrt0")
-
-
-def multiple_of_a_prime(forger):
-    """x + (2^61 - 1) y = x."""
-    forger.proof(["+", "x", ["*", MERSENNE, "y"]], "x", text=f"x + {MERSENNE}*y = x",
-                 point={"symbols": {"x": "1", "y": "0"}, "half_tangents": {}}, lhs=["1"], rhs=["1"])  # fmt: skip
 
 
 def fermat(forger):
@@ -90,17 +53,6 @@ def leading_zero(forger):
     """One number written in two ways: two records would say one thing."""
     component = {"numerator": "", "denominators": [["01*0", 1]], "cofactors": []}
     forger.proof("x", ["*", 1, "x"], generators=["x"], components=[component], text="x = 1*x")
-
-
-def sign_that_is_an_angle(forger):
-    equation = forger.equation("recess-action/eq-16/as printed/1")
-    equation["signs"] = [forger.certificate(equation["id"])["angles"][0]["symbol"]]
-
-
-def turned_derivative(forger):
-    forger.proof(["d", ["sin", "a"], ["a", 1]], ["-", ["cos", "a"]], text="d(sin(a), a) = -cos(a)",
-                 angles=[{"symbol": "a", "divisor": 1}], lhs=["0.8"], rhs=["-0.8"],
-                 point={"symbols": {}, "half_tangents": {"a": "1/3"}})  # fmt: skip
 
 
 def refuted_circle(forger):
@@ -188,18 +140,7 @@ def number_with_exponent(forger):
     source["verbatim"], equation["rhs"] = "3e2", "3e2"
 
 
-def number_that_is_not_printed(forger):
-    source, *_ = figure(forger)
-    source["verbatim"] = "no number at all"
-
-
 # ---- bindings --------------------------------------------------------------------------------------------------------
-
-
-def rests_on_operands_exchanged(forger):
-    """The same with x + y = y + x."""
-    at = {"symbols": {"x": "1", "y": "2"}, "half_tangents": {}}
-    forger.proof(["+", "x", "y"], ["+", "y", "x"], text="x + y = y + x", point=at, lhs=["3"], rhs=["3"])
 
 
 def proof_of_something_true(forger):
@@ -207,18 +148,6 @@ def proof_of_something_true(forger):
     text = forger.source("recess-action/eq-12")["reading"]["as printed"][0]
     forger.proof(["+", "x", "y"], ["+", "y", "x"], text=text, lhs=["2"], rhs=["2"],
                  point={"symbols": {"x": "1", "y": "1"}, "half_tangents": {}})  # fmt: skip
-
-
-def equation_of_another_verdict(forger):
-    """Eq (16), refuted as printed, rests on the proof of Eq (12)."""
-    forger.verdict("recess-action/eq-16")["readings"][0]["parts"] = [
-        dict(part) for part in forger.verdict("recess-action/eq-12")["readings"][0]["parts"]
-    ]
-
-
-def emptied_readings(forger):
-    verdict = forger.verdict("recess-action/eq-16")
-    verdict |= {"readings": [], "corrected": [], "status": "not_mathematical"}
 
 
 def correction_that_corrects_nothing(forger):
@@ -265,15 +194,6 @@ def read_with_other_letters(forger):
     letters[[old for old, _ in letters].index("phi_worm")][1] = "-phi1"
 
 
-def read_with_a_letter_that_stands_for_two_things(forger):
-    letters = read(forger)["letters"]
-    letters.insert(0, ["tan(lambda_hob)", "p/r_hob"])
-
-
-def read_with_a_letter_that_is_no_expression(forger):
-    read(forger)["letters"][0] = ["p", "p q"]
-
-
 def read_from_a_vector_of_a_high_power(forger):
     vector = ["given", ["vec", ["^", "x", 10**9], 0, 0]]
     read(forger)["part"] = ["carried", ["sweep", "pinion", 0, 2], vector]
@@ -302,18 +222,10 @@ def read_and_called_typed(forger):
 
 
 FORGED = [
-    (two_roots_one_name, "not of its radicand"),
     (root_with_two_divisors, "two divisors"),
-    (root_named_as_cosine, "cannot be the name"),
-    (root_named_as_symbol, "cannot be the name"),
-    (arc_named_as_symbol, "cannot be the name"),
-    (symbol_named_as_root, "no name of a symbol"),
-    (multiple_of_a_prime, "trees differ"),
     (fermat, "degree|not 'x = 1'|exponent"),
     (enormous_degree, "degree|is not"),
     (leading_zero, "canonical form"),
-    (sign_that_is_an_angle, "two things"),
-    (turned_derivative, "trees differ"),
     (refuted_circle, "agree at the counterexample"),
     (invented_point_value, "one value twice"),
     (sign_of_two, "neither"),
@@ -322,11 +234,7 @@ FORGED = [
     (misprint_called_proved, "half a unit"),
     (wide_pi, "half a unit"),
     (number_with_exponent, "not a decimal"),
-    (number_that_is_not_printed, "does not stand in the print"),
-    (rests_on_operands_exchanged, "same expression"),
     (proof_of_something_true, "is not"),
-    (equation_of_another_verdict, "another verdict|missing or added"),
-    (emptied_readings, "readings are not"),
     (correction_that_corrects_nothing, "status does not follow|nothing is corrected|rests on"),
     (correction_of_both_sides, "more than one side|recorded numbers|trees"),
     (two_certificates, "two certificates"),
@@ -334,8 +242,6 @@ FORGED = [
     (definition_of_another_name, "another step's name"),
     (step_with_an_input_it_does_not_use, "not used"),
     (read_with_other_letters, "not what the description"),
-    (read_with_a_letter_that_stands_for_two_things, "stands for two things"),
-    (read_with_a_letter_that_is_no_expression, "SyntaxError"),
     (read_from_a_vector_of_a_high_power, "exponent"),
     (read_from_parts_in_parts, "not what the description|Recursion|nested"),
     (read_from_no_drive, "is no drive"),
@@ -343,8 +249,60 @@ FORGED = [
 ]
 
 
+def root(radicand, generator="sqrt0", divisor="1"):
+    return {"radicand": radicand, "generator": generator, "divisor": divisor}
+
+
+def multiple_of_a_prime(forger):
+    """x + (2^61 - 1) y = x."""
+    forger.proof(["+", "x", ["*", MERSENNE, "y"]], "x", text=f"x + {MERSENNE}*y = x",
+                 point={"symbols": {"x": "1", "y": "0"}, "half_tangents": {}}, lhs=["1"], rhs=["1"])  # fmt: skip
+
+
 #: The same of forgeries in one step.
 IN_ONE_STEP = {
+    "multiple of a prime": (multiple_of_a_prime, "trees differ"),
+    "one name for two roots": (
+        lambda f: f.proof(["sqrt", 2], ["sqrt", 3], roots=[root(2), root(3)], text="sqrt(2) = sqrt(3)"),
+        "not of its radicand"
+    ),
+    "root named as cosine": (
+        lambda f: f.proof(["sqrt", "x"], ["cos", "a"], roots=[root("x", "cos(a)")],
+                          angles=[{"symbol": "a", "divisor": 1}], text="sqrt(x) = cos(a)"), "cannot be the name"
+    ),
+    "root named as symbol": (
+        lambda f: f.proof(["sqrt", "x"], "y", roots=[root("x", "y")], text="sqrt(x) = y"), "cannot be the name"
+    ),
+    "arc named as symbol": (
+        lambda f: f.proof(["atan2", "a", "b"], "z", arcs=[{"tree": ["atan2", "a", "b"], "generator": "z"}],
+                          text="atan2(a, b) = z"), "cannot be the name"
+    ),
+    "symbol named as root": (
+        lambda f: f.proof(["sqrt", "x"], "sqrt0", roots=[root("x")], text="sqrt(x) = sqrt0"), "no name of a symbol"
+    ),
+    "sign that is an angle": (
+        lambda f: f.equation("recess-action/eq-16/as printed/1").update(
+            signs=[f.certificate("recess-action/eq-16/as printed/1")["angles"][0]["symbol"]]), "two things"
+    ),
+    "number that is not printed": (
+        lambda f: figure(f)[0].update(verbatim="no number at all"), "does not stand in the print"
+    ),
+    "rests on operands exchanged": (
+        lambda f: f.proof(["+", "x", "y"], ["+", "y", "x"], text="x + y = y + x", lhs=["3"], rhs=["3"],
+                          point={"symbols": {"x": "1", "y": "2"}, "half_tangents": {}}), "same expression"
+    ),
+    "refuted, on the proof of another verdict": (
+        lambda f: f.verdict("recess-action/eq-16")["readings"][0].update(
+            parts=f.verdict("recess-action/eq-12")["readings"][0]["parts"]), "another verdict|missing or added"
+    ),
+    "emptied readings": (
+        lambda f: f.verdict("recess-action/eq-16").update(readings=[], corrected=[], status="not_mathematical"),
+        "readings are not"
+    ),
+    "letter that stands for two things": (
+        lambda f: read(f)["letters"].insert(0, ["tan(lambda_hob)", "p/r_hob"]), "stands for two things"
+    ),
+    "letter that is no expression": (lambda f: read(f)["letters"].__setitem__(0, ["p", "p q"]), "SyntaxError"),
     "prime is zero": (lambda f: f.proof(MERSENNE, 0, text=f"{MERSENNE} = 0"), "trees differ"),
     "enormous exponent": (
         lambda f: f.proof(["^", "x", 10**9], ["*", 1, ["^", "x", 10**9]], text=f"x**{10**9} = 1*x**{10**9}"), "exponent"
@@ -434,14 +392,6 @@ def emptied_equations_of_a_header(folder):
     path.write_text(json.dumps(sealed, indent=1, sort_keys=True) + "\n")
 
 
-def added_header(folder):
-    (folder.parent / "c" / "other.h").write_text("double y;\n")
-
-
-def removed_page(folder):
-    (folder / "audit.tex").unlink()
-
-
 def header_on_what_is_not_held(folder):
     altered("../c/drive.h", "rack-and-pinion/eq-1", "rack-and-pinion/eq-77")(folder)
     reseal(folder)
@@ -470,10 +420,6 @@ def header_without_its_equations(folder):
     text = "/* A drive. */\nstatic inline int drive_setup(const double *p, double *s)\n{\n}\n"
     (folder.parent / "c" / "drive.h").write_text(text)
     reseal(folder)
-
-
-def manifest_of_other_files(folder):
-    (folder.parent / "manifest.json").write_text('{"files": {}}\n')
 
 
 def emptied_record(folder):
@@ -517,14 +463,14 @@ FILES = [
     (altered("checker/refusal.py", "Rejected", "Accepted"), "checker/refusal.py has been changed"),
     (emptied_list_of_files, "not sealed"),
     (emptied_equations_of_a_header, "other equations than its seal"),
-    (added_header, "other.h is not sealed"),
-    (removed_page, "audit.tex is missing"),
+    (lambda folder: (folder.parent / "c" / "other.h").write_text("double y;\n"), "other.h is not sealed"),
+    (lambda folder: (folder / "audit.tex").unlink(), "audit.tex is missing"),
     (header_on_what_is_not_held, "not a proved statement"),
     (header_on_what_is_false, "not a proved statement"),
     (header_of_other_definitions, "rests on another rack-and-pinion/eq-1"),
     (function_on_what_is_not_listed, "which the header does not list"),
     (header_without_its_equations, "names no equation"),
-    (manifest_of_other_files, "manifest"),
+    (lambda folder: (folder.parent / "manifest.json").write_text('{"files": {}}\n'), "manifest"),
     (emptied_record, "does not end|cannot be read|Expecting"),
     (duplicate_key, "key stands twice"),
     (repeated_line, "repeated"),

@@ -10,6 +10,7 @@ import json
 import subprocess
 import tempfile
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import casadi
@@ -19,7 +20,7 @@ from derive import drives
 from derive.passes.schedule import schedule
 from derive.program.tape import Stage
 from meshwright import Drive
-from meshwright.base.library import ffi, library
+from meshwright.base.library import ffi, library, pointer
 from tests.benchmarks import baselines, calls, certified, latency, regeneration
 from tests.benchmarks.chain import Chain
 from tests.benchmarks.timing import best, compile_c, compiler, instructions
@@ -104,10 +105,6 @@ def case_of(design, first, step):
     return Case(drive, angles, drive.trace(angles)[0])
 
 
-def _pointer(array, kind="double[]"):
-    return ffi.from_buffer(kind, array)
-
-
 def lane_points(case, width):
     """Points a second of many designs over the same angles in lanes; None if this processor has none so wide."""
     lanes, lib = library().mw_lanes(width), library()
@@ -117,15 +114,10 @@ def lane_points(case, width):
     parameters, angles = np.tile(case.parameters, (designs, 1)), case.angles[:n].copy()
     start, work = case.start.copy(), np.empty(lib.mw_lanes_work(lanes, m, n))
     x, status = np.empty((designs, n, m.nx)), np.empty((designs, n), dtype=np.int32)
-    arguments = (lanes, m, _pointer(parameters), designs, _pointer(angles), n, _pointer(start), _pointer(work))
-    seconds = best(lambda: lib.mw_trace_designs(*arguments, _pointer(x), _pointer(status, "int[]")), repeats=30)
+    arguments = (lanes, m, pointer(parameters), designs, pointer(angles), n, pointer(start), pointer(work))
+    seconds = best(lambda: lib.mw_trace_designs(*arguments, pointer(x), pointer(status, "int[]")), repeats=30)
     assert not status.any()
     return designs * n / seconds
-
-
-def certified_points(case, width):
-    """Certified points a second; None as above."""
-    return certified.points(case.drive, case.angles, case.points, width)
 
 
 def _numbers(program, case, *arguments):
@@ -202,13 +194,11 @@ def measure(case, folder):
     rates = _in_turns(
         {
             "scalar": lambda: _run(scalar, case, POINTS, 20),
-            "lanes2": lambda: lane_points(case, 2),
-            "lanes4": lambda: lane_points(case, 4),
-            "lanes8": lambda: lane_points(case, 8),
-            "certified1": lambda: certified_points(case, 1),
-            "certified2": lambda: certified_points(case, 2),
-            "certified4": lambda: certified_points(case, 4),
-            "certified8": lambda: certified_points(case, 8),
+            **{f"lanes{w}": partial(lane_points, case, w) for w in (2, 4, 8)},
+            **{
+                f"certified{w}": partial(certified.points, case.drive, case.angles, case.points, w)
+                for w in (1, 2, 4, 8)
+            },
             "casadi-c": lambda: _run(generated, case, POINTS, 20, 0),
             "casadi-c-extrapolated": lambda: _run(generated, case, POINTS, 20, 1),
             "casadi-c-chain": lambda: _run(by_chain, chained, POINTS, 20, 0),

@@ -11,7 +11,7 @@ import time
 import numpy as np
 
 from meshwright import Drive
-from meshwright.base.library import ffi, library, proofs, record
+from meshwright.base.library import ffi, library, pointer, proofs, record
 from meshwright.contact.certified_path import certified_path
 from meshwright.cycle import certified_first
 from tests.benchmarks.timing import best
@@ -25,10 +25,6 @@ POINTS, FULL = 4096, 256
 
 #: Angle, rad, from the middle of the mesh to where a design's contact lies on both flanks, where the middle does not.
 FIRST = {"recess-action-full": math.radians(100.0)}
-
-
-def pointer(array, kind="double[]"):
-    return ffi.from_buffer(kind, array)
 
 
 def points(drive, angles, solutions, width):

@@ -2,7 +2,7 @@
  * scalar_trace.c. */
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
+#include "clock.h"
 #ifdef __AVX512F__
 #define MW_LANES 16
 #elif defined(__AVX2__)
@@ -25,13 +25,6 @@ typedef struct pair {
 static pair pairs[REPEATS];
 
 double peak(double *sum);
-
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static int spread(double *to)
 {

@@ -1,5 +1,5 @@
 /* Peak of fused multiply-adds a second of one core, in floating-point operations: independent chains in registers. */
-#include <time.h>
+#include "clock.h"
 
 #if defined(__AVX512F__)
 enum { WIDTH = 8 };
@@ -9,13 +9,6 @@ enum { WIDTH = 4 };
 enum { WIDTH = 2 };
 #endif
 typedef double vector __attribute__((vector_size(8 * WIDTH)));
-
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* One measurement, of some ten microseconds; what the chains come to is added to *sum, so that they are computed. */
 double peak(double *sum)

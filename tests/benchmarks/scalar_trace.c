@@ -1,20 +1,13 @@
 /* Trace by the runtime; same input as casadi_trace.c, start values unused. argv: points, repeats. */
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
+#include "clock.h"
 #include HEADER
 #include "meshwright.h"
 
 enum { MAX_POINTS = 200000 };
 static double phi[MAX_POINTS], x[MAX_POINTS][MODEL_NX];
 static mw_info info[MAX_POINTS];
-
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 int main(int argc, char **argv)
 {

@@ -16,6 +16,7 @@ from meshwright.contact.results import ARCSEC
 from meshwright.cycle.path import Path
 from meshwright.design.design import packaged_names
 from tests.certified import trials
+from tests.independent.chords import chords
 from tests.independent.spherical import Gear, Pair
 from tests.independent.worm import WormDrive
 from tests.lanes import available
@@ -41,22 +42,8 @@ def exact_error(tables, result, k, degrees):
     paper, phi = WormDrive.of(decimals(tables)), mpmath.mpf(degrees.numerator) / degrees.denominator * mpmath.pi / 180
     u = {name: values[k] for name, values in result.unknowns.items()}
     start = [u["t_worm"], u["psi_worm"], u["t_hob"], u["psi_hob"], u["phi_hob"], result.wheel_angles[k]]
-    for _ in range(2):
-        start = _further(paper, start, phi)
-    assert max(map(abs, paper.residual(start, phi))) < mpmath.mpf(10) ** -35
-    return (start[5] - mpmath.mpf(paper.threads) / paper.teeth * phi) * 648000 / mpmath.pi
-
-
-def _further(paper, unknowns, phi):
-    """Chord steps in the precision of the moment."""
-    unknowns = [mpmath.mpf(u) for u in unknowns]
-    inverse = np.linalg.inv(paper._jacobian(unknowns, phi))
-    for _ in range(4):
-        residual = paper.residual(unknowns, phi)
-        size = max(map(abs, residual)) or mpmath.mpf(1)
-        change = inverse @ np.array([float(r / size) for r in residual])
-        unknowns = [u - size * mpmath.mpf(float(c)) for u, c in zip(unknowns, change, strict=True)]
-    return unknowns
+    wheel_angle = chords(lambda x: paper.residual(x, phi), start)[5]
+    return (wheel_angle - mpmath.mpf(paper.threads) / paper.teeth * phi) * 648000 / mpmath.pi
 
 
 def contains(bounds, value):

@@ -59,9 +59,7 @@ def holds(name, changes, degrees):
     result, found = certified(drive, degrees)
     with mpmath.workdps(DIGITS):
         other, phi = twin(drive, result), mpmath.mpf(degrees.numerator) / degrees.denominator * mpmath.pi / 180
-        values, near = decimals_of(drive), [mpmath.mpf(float(u)) for u in other.start]
-        inverse = np.linalg.inv(other._jacobian(other.of(values), near, phi))
-        seen = other.solved(values, phi, near, inverse)
+        seen = other.solved(decimals_of(drive), phi)
         names = [u["name"] for u in drive.design.description["unknowns"]]
         for name, value in zip(other.names, seen, strict=False):
             entry = found.records["x"][0][names.index(name)]

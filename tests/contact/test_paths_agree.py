@@ -110,8 +110,7 @@ def _in_fifty_digits(drive, contact, angle):
     keys = [p for p in drive.design.description["parameters"] if is_real(p) and _given(drive, p)]
     given = {f"{p['table']}.{p['key']}": mpmath.mpf(drive.design.value(p["key"], p["table"])) for p in keys}
     exact, phi = twin(drive, contact), mpmath.mpf(angle)
-    near = [mpmath.mpf(u) for u in exact.start]
-    seen = exact.solved(given, phi, near, np.linalg.inv(exact._jacobian(exact.of(given), near, phi)))
+    seen = exact.solved(given, phi)
     return seen[exact.names.index("transmission_error")], seen[len(exact.names) :]
 
 

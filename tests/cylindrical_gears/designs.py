@@ -1,9 +1,6 @@
-"""Designs of cylindrical gears for tests, and exact solutions of the independent formulation."""
+"""Designs of cylindrical gears for tests."""
 
 import math
-
-import mpmath
-import numpy as np
 
 ARCSEC = math.pi / 648000
 
@@ -18,26 +15,6 @@ def tables(design, misalignment=None, flank="left", blank=None):
         "misalignment": misalignment or {},
         "blank": blank or {},
     }
-
-
-def polished(exact, phi, unknowns):
-    """The pair's solution to about 30 digits: chord iterations from a double precision start."""
-    x = [mpmath.mpf(float(u)) for u in unknowns]
-    step, columns = mpmath.mpf(10) ** -15, []
-    for k in range(5):
-        above, below = list(x), list(x)
-        above[k] += step
-        below[k] -= step
-        pairs = zip(exact.residual(phi, above), exact.residual(phi, below), strict=True)
-        columns.append([float((a - b) / (2 * step)) for a, b in pairs])
-    inverse = np.linalg.inv(np.array(columns).T)
-    for _ in range(4):
-        residual = exact.residual(phi, x)
-        size = max(map(abs, residual)) or mpmath.mpf(1)
-        change = inverse @ np.array([float(r / size) for r in residual])
-        x = [u - size * mpmath.mpf(float(c)) for u, c in zip(x, change, strict=True)]
-    assert max(map(abs, exact.residual(phi, x))) < 1e-25
-    return x
 
 
 def random_modified(rng):

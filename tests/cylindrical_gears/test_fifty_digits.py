@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from meshwright import DesignError, Drive
-from tests.cylindrical_gears.designs import ARCSEC, polished, random_modified
+from tests.cylindrical_gears.designs import ARCSEC, random_modified
+from tests.independent.chords import chords
 from tests.independent.cylindrical_gears import pair_of
 
 DIGITS, DESIGNS = 50, 60
@@ -27,7 +28,7 @@ def differences():
             if found.status != ("converged",):
                 continue
             exact, angle = pair_of(design), mpmath.mpf(phi)
-            x = polished(exact, angle, found.solutions[0])
+            x = chords(lambda x, exact=exact, angle=angle: exact.residual(angle, x), found.solutions[0])
             residual = exact.residual(angle, [mpmath.mpf(float(u)) for u in found.solutions[0]])
             point, normal, _, _ = exact.placed(angle, x)
             rows.append((

