@@ -23,10 +23,6 @@ ELEMENTARY = ("sincos", "atan2")
 PARTIAL = {"division": r"= [^;?]*? / (?![\d.]+(?:e[-+]?\d+)?;)", "root": r"= sqrt\(", "arc": r"= \w+_atan2\("}
 
 
-def description(drive):
-    return described(drive)
-
-
 @cache
 def scheduled(drive):
     """The schedule of a drive, to be read."""
@@ -46,7 +42,7 @@ def partial_operations(body):
 
 def listed(drive):
     found = {}
-    for entry in description(drive)["side_conditions"]:
+    for entry in described(drive)["side_conditions"]:
         kind = "root" if entry["operation"] == "arccosine" else entry["operation"]
         for name, use in entry["functions"].items():
             found.setdefault(name, Counter())[kind] += use["count"]
@@ -68,7 +64,7 @@ def test_no_division_root_or_arc_of_a_header_lacks_its_side_condition(drive):
 
 @pytest.mark.parametrize("drive", DRIVES)
 def test_every_side_condition_names_a_proved_statement_and_a_guard(drive):
-    told = description(drive)
+    told = described(drive)
     for entry in told["side_conditions"]:
         assert entry["condition"] and entry["equations"]
         assert set(entry["equations"]) <= set(told["equations"]) | {"derivation/quotient", "derivation/root"}
@@ -145,7 +141,7 @@ class Case:
     """A drive of the library at its self-test."""
 
     def __init__(self, name):
-        self.c, self.told = model(name), description(name)
+        self.c, self.told = model(name), described(name)
         test = self.told["self_test"]
         self.p = np.array([math.nan if v == "nan" else float.fromhex(v) for v in test["p"]])
         self.x = np.array([float.fromhex(v) for v in test["x"]])

@@ -71,6 +71,28 @@ def halved(text):
     return {name: (term.sub(r"\1", held), term.sub(lambda m: m[2] or f"0.5 * {m[1]}", held)) for name, _, held in lines}
 
 
+def header(name, replaced=None):
+    """A header of certify/ for a file of another folder, as it is or with one text replaced."""
+    text = (C / "certify" / name).read_text(encoding="utf-8")
+    if replaced:
+        assert text.count(replaced[0]) == 1, (replaced[0], text.count(replaced[0]))
+        text = text.replace(*replaced)
+    return text.replace('#include "../mw_certify.h"', '#include "mw_certify.h"').replace('"ball.h"', '"certify/ball.h"')
+
+
+def operations(folder, source, type_, calls):
+    """The library of a text of C, with a function for each of ``calls`` (name → what is done with ``a[k]`` …)."""
+    loops = (_LOOPS.format(v="each", kind="row", op=op, type=type_, call=call) for op, call in calls)
+    return library_of(folder, f"#include <stddef.h>\n{source}{''.join(loops)}")
+
+
+def run(loaded, op, a, b):
+    """Rows of results of one of :func:`operations`; of ``sincos`` both."""
+    arrays = [np.ascontiguousarray(x, dtype=float) for x in (a, b)] + [np.empty_like(a) for _ in range(2)]
+    getattr(loaded, f"run_each_row_{op}")(len(a), *(x.ctypes.data_as(ctypes.c_void_p) for x in arrays))
+    return arrays[2:] if op == "sincos" else arrays[2:3]
+
+
 def compiled(folder, changes=None):
     """Variant → :class:`Arithmetic`: ``exact`` as it is and, for each name in ``changes`` (name → [(text, instead)]),
     the same with these texts of the headers replaced. A text that is not there once is an error.

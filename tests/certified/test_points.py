@@ -10,10 +10,8 @@ import pytest
 from meshwright import Drive
 from meshwright.base.library import ffi, library, pointer, proofs, record
 from meshwright.cli import main
-from meshwright.contact.branch import fold_angle
 from meshwright.contact.certificate import certify, certify_boxes, certify_many
 from meshwright.contact.results import ARCSEC
-from meshwright.cycle.path import Path
 from meshwright.design.design import packaged_names
 from tests.certified import trials
 from tests.independent.chords import chords
@@ -160,15 +158,8 @@ def test_at_a_pitchfork_nothing_is_claimed_and_beside_it_the_point_is_certain():
 @pytest.fixture(scope="module")
 def folding():
     """A drive, an angle 1e-3 rad before a fold, and its contacts there, two of which are about to meet."""
-    drive = Drive.load("zk-zn-90").with_(misalignment={"center_distance_mm": 0.02})
-    start = np.radians(-60.0)
-    for solution in drive.contacts(start).solutions:
-        path = Path.through(drive, start, solution).extended(start + drive.pitch())
-        if path.ended[1]:
-            fold = fold_angle(path, -1)
-    angle = fold - 1e-3
-    found = drive.contacts(angle)
-    return drive, angle, found.solutions
+    drive, fold = trials.fold()
+    return drive, fold - 1e-3, drive.contacts(fold - 1e-3).solutions
 
 
 def test_two_contacts_about_to_meet_are_two_and_a_box_around_both_is_never_said_to_hold_one(folding):

@@ -1,27 +1,18 @@
 """Every operation on polynomials with an error bound holds every function that its arguments hold, exactly judged."""
 
-import ctypes
 from fractions import Fraction
 
 import flint
 import numpy as np
 import pytest
 
-from tests.certified.arithmetic import C, halved, library_of
+from tests.certified.arithmetic import halved, header, operations, run
 from tests.certified.test_arithmetic import arb
 
 pytestmark = pytest.mark.usefixtures("many_digits")
 
 ORDER, COUNT = 8, 25
 BINARY, UNARY = ("add", "sub", "mul", "div", "atan2"), ("sqr", "neg", "sqrt", "magnitude", "sincos")
-
-_LOOP = """
-void run_{op}(int n, const mw_polynomial *a, const mw_polynomial *b, mw_polynomial *r, mw_polynomial *s)
-{{
-    (void)b, (void)s;
-    for (int k = 0; k < n; k++) {call};
-}}
-"""
 
 #: Error terms, halved. Not among them are the tails of series, which roundings outweigh, and the factors that only make
 #: good the rounding of radii.
@@ -44,23 +35,11 @@ sincos, cosine: cosine->radius = (cosine->radius + ⟦radius⟧)
 
 def compiled(folder, replaced=None):
     """The operations as they are, or with one text of the header replaced."""
-    text = (C / "certify" / "polynomial.h").read_text(encoding="utf-8")
-    if replaced:
-        assert text.count(replaced[0]) == 1, (replaced[0], text.count(replaced[0]))
-        text = text.replace(*replaced)
-    text = text.replace('#include "../mw_certify.h"', '#include "mw_certify.h"').replace('"ball.h"', '"certify/ball.h"')
+    text = header("polynomial.h", replaced)
     calls = [(op, f"r[k] = mwc_poly_{op}(a[k], b[k])") for op in BINARY]
     calls += [(op, f"r[k] = mwc_poly_{op}(a[k])") for op in UNARY[:-1]]
     calls.append(("sincos", "mwc_poly_sincos(a[k], &r[k], &s[k])"))
-    loops = "".join(_LOOP.format(op=op, call=call) for op, call in calls)
-    return library_of(folder, f"#include <stddef.h>\n{text}{loops}")
-
-
-def run(loaded, op, a, b):
-    """Results (N, 10) of one operation; of ``sincos`` both."""
-    arrays = [np.ascontiguousarray(x, dtype=float) for x in (a, b)] + [np.empty_like(a) for _ in range(2)]
-    getattr(loaded, f"run_{op}")(len(a), *(x.ctypes.data_as(ctypes.c_void_p) for x in arrays))
-    return arrays[2:] if op == "sincos" else arrays[2:3]
+    return operations(folder, text, "mw_polynomial", calls)
 
 
 def at(row, t):

@@ -1,12 +1,12 @@
 """Every operation on polynomials of three variables holds every function that its arguments hold, exactly judged."""
 
-import ctypes
 from fractions import Fraction
 
 import numpy as np
 import pytest
 
-from tests.certified.arithmetic import C, halved, library_of
+from tests.certified import arithmetic
+from tests.certified.arithmetic import C, halved, header, operations
 from tests.certified.test_arithmetic import arb
 from tests.certified.test_polynomials import BALLS, BINARY, EXACT, UNARY, outside
 
@@ -17,14 +17,6 @@ COUNT, TERMS = 25, [(d - j, j, k) for k in range(5) for d in range(5 - k) for j 
 #: Coefficients in a row; places after these and one that is zero: radius; what of the coefficients occurs, highest
 #: degree in s and t and highest power of u.
 HELD, RADIUS, WIDTH = len(TERMS), len(TERMS) + 1, len(TERMS) + 3
-
-_LOOP = """
-void run_{op}(int n, const mwc_sheet *a, const mwc_sheet *b, mwc_sheet *r, mwc_sheet *s)
-{{
-    (void)b, (void)s;
-    for (int k = 0; k < n; k++) {call};
-}}
-"""
 
 #: Error terms, halved: as of the polynomials of one variable. The bound of a sum of rounded products is twice what its
 #: terms come to at their worst, so it is left out, as are the tails of series.
@@ -48,11 +40,7 @@ sincos, cosine: cosine->radius = (cosine->radius + ⟦radius⟧)
 
 def compiled(folder, replaced=None):
     """The operations as they are, or with one text of the header replaced."""
-    text = (C / "certify" / "sheet.h").read_text(encoding="utf-8")
-    if replaced:
-        assert text.count(replaced[0]) == 1, (replaced[0], text.count(replaced[0]))
-        text = text.replace(*replaced)
-    text = text.replace('"ball.h"', '"certify/ball.h"')
+    text = header("sheet.h", replaced)
     cube = (C / "certify" / "cube.h").read_text(encoding="utf-8").replace('#include "sheet.h"', "")
     calls = [(op, f"r[k] = mwc_sheet_{op}(a[k], b[k])") for op in BINARY]
     calls += [(op, f"r[k] = mwc_sheet_{op}(a[k])") for op in (*UNARY[:-1], "sign")]
@@ -63,15 +51,12 @@ def compiled(folder, replaced=None):
         for name, end in (("low", "-1.0"), ("high", "1.0"))
     ]
     calls.append(("low", "(r[k] = a[k], r[k].c[0] = mwc_cube_low(&a[k]))"))
-    loops = "".join(_LOOP.format(op=op, call=call) for op, call in calls)
-    return library_of(folder, f"#include <stddef.h>\n{text}{cube}{loops}")
+    return operations(folder, text + cube, "mwc_sheet", calls)
 
 
 def run(loaded, op, a, b):
     """Results (N, WIDTH) of one operation; of ``sincos`` both."""
-    arrays = [_marked(x) for x in (a, b)] + [np.empty_like(a) for _ in range(2)]
-    getattr(loaded, f"run_{op}")(len(a), *(x.ctypes.data_as(ctypes.c_void_p) for x in arrays))
-    return arrays[2:] if op == "sincos" else arrays[2:3]
+    return arithmetic.run(loaded, op, _marked(a), _marked(b))
 
 
 def _marked(rows):

@@ -9,6 +9,7 @@ import random
 import shutil
 import subprocess
 import sys
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -140,18 +141,29 @@ def copy_of_tree(folder):
     return folder
 
 
+@contextmanager
+def changed(tree, page, change):
+    """A page of the tree as ``change`` makes it of its text, for the time being."""
+    path = tree / "derive" / page
+    before = path.read_text(encoding="utf-8")
+    path.write_text(change(before), encoding="utf-8")
+    try:
+        yield
+    finally:
+        path.write_text(before, encoding="utf-8")
+
+
 def compiled(tree, edit, output, *options):
     """``python -m derive`` of the edited page's drive in a copy of the tree, which is as it was afterwards."""
-    path = tree / "derive" / edit.page
-    before = path.read_bytes()
-    lines = before.splitlines(keepends=True)
-    line = lines[edit.line - 1]
-    lines[edit.line - 1] = line[: edit.first] + edit.new.encode() + line[edit.last :]
-    path.write_bytes(b"".join(lines))
-    try:
+
+    def change(text):
+        lines = text.splitlines(keepends=True)
+        line = lines[edit.line - 1].encode()
+        lines[edit.line - 1] = (line[: edit.first] + edit.new.encode() + line[edit.last :]).decode()
+        return "".join(lines)
+
+    with changed(tree, edit.page, change):
         return derived(tree, edit.drive, "--output", output, *options)
-    finally:
-        path.write_bytes(before)
 
 
 def derived(tree, *words):

@@ -94,14 +94,9 @@ def test_a_statement_of_one_body_is_open_where_the_tool_makes_another_surface_of
     "line", ["raise SystemExit(3)", "raise KeyError(0)", "return straight_blade(body, definitions)"]
 )
 def test_a_page_that_ends_is_refused_by_its_line(tree, tmp_path, line):
-    page = tree / "derive" / "tools" / "straight_blade.py"
-    before = page.read_text(encoding="utf-8")
     begin = "    alpha, r, s = "
-    page.write_text(before.replace(begin, f"    {line}\n{begin}"), encoding="utf-8")
-    try:
+    with edits.changed(tree, "tools/straight_blade.py", lambda text: text.replace(begin, f"    {line}\n{begin}")):
         outcome = edits.derived(tree, "cylindrical_worm_zn_zn", "--output", tmp_path)
-    finally:
-        page.write_text(before, encoding="utf-8")
     assert outcome.status == 2 and f"straight_blade.py, line 17: `{line}`" in outcome.said
 
 
@@ -126,11 +121,6 @@ def test_a_page_that_is_no_python_is_refused_by_its_line(tree, tmp_path, page):
 
 
 def test_an_interrupted_run_ends_in_a_line(tree, tmp_path):
-    page = tree / "derive" / "tools" / "straight_blade.py"
-    before = page.read_text(encoding="utf-8")
-    page.write_text(before + "\nraise KeyboardInterrupt\n", encoding="utf-8")
-    try:
+    with edits.changed(tree, "tools/straight_blade.py", lambda text: text + "\nraise KeyboardInterrupt\n"):
         outcome = edits.derived(tree, "cylindrical_worm_zn_zn", "--output", tmp_path)
-    finally:
-        page.write_text(before, encoding="utf-8")
     assert outcome.status == 130 and outcome.said.startswith("interrupted;") and not [*tmp_path.iterdir()]

@@ -8,25 +8,10 @@ import sympy as sp
 
 from derive.drives import cylindrical_worm
 from derive.language.outline import m
-from derive.language.surface import helicoid
-from derive.language.symbols import Quantity
 from derive.language.tool import Datum, Tool, suggestions, tool
 from derive.passes.sample import sample_parameters
 from derive.passes.schedule import schedule
-from derive.tools.worm_body import WormTool, reach
-
-CROWN = Datum("blade_crown_per_mm", "c", "crowning of the blade", default=0, sample="0.001")
-
-
-@tool(CROWN)
-def crowned_axial_blade(body, definitions):
-    """Edge in the axial plane that falls back from the straight one by a parabola."""
-    r, s = body.pitch_radius, body.flank
-    t = Quantity(f"t_{body.name}", "mm", "radius", body.name)
-    height = body.groove_width / 2 + (t - r) * sp.tan(body.pressure_angle) - body[CROWN] * (t - r) ** 2
-    section = definitions.let_vector(f"P_{body.name}", (t, 0, s * height / sp.cos(body.lead_angle)), "blade", "mm")
-    flank = helicoid(definitions, section, along=t, sweep=body.turn, parameter=body.screw_parameter, outward=-s)
-    return WormTool(flank, r, reach(body, t), body.module, body.screw_parameter, lower_end=sp.Integer(0))
+from tests.outside.drives.crowned_worm import crowned_axial_blade
 
 
 @pytest.fixture

@@ -36,26 +36,35 @@ SIZES = {"short": Size(1500, 100, 6, 80_000, 40, 15), "full": Size(200_000, 10_0
 #: Packaged designs whose drives the short run compiles.
 FEW = ("spherical-table-2-3",)
 
-#: Share of the analysed designs of which path and limits are sought too.
-DEEP = 0.2
-
 #: Inputs of a process, of random bytes and of bytes led by coverage, in turn; seconds an input may take.
 PIECE, LED, LIMIT = 200, 400, 60
 
 
+#: What is drawn by seeds, each of which can be shown again.
+SHOWN = {"designs": designs, "surface and report": pages}
+AGAIN = "; show one again with python -m tests.fuzz --only PART --show SEED"
+
+
+def _show(drawn, seed):
+    """Print the mutated design of a seed and what becomes of it."""
+    name, content = drawn.mutation(seed)
+    print(f"# from {name}\n{content.decode('utf-8', 'backslashreplace')}", flush=True)
+    with tempfile.TemporaryDirectory() as folder:
+        print(dict(drawn.one(seed, folder)) or "refused")
+
+
 def _designs(size, seed):
-    total, failures = designs.run(size.designs, size.analyse, seed, DEEP)
+    total, failures, slowest = designs.run(size.designs, size.analyse, seed, designs.DEEP)
     wrong = [f"seed {f['seed']}: {f['error']}" for f in failures]
-    again = "; show one again with python -m tests.fuzz.designs --show SEED" if wrong else ""
-    return f"{sum(total.values())} loaded, {total['analysed']} analysed, {total['refused']} refused{again}", wrong
+    words = f"{total['analysed']} analysed, {total['refused']} refused, slowest {slowest[0]:.2f} s, seed {slowest[1]}"
+    return f"{sum(total.values())} loaded, {words}{AGAIN if wrong else ''}", wrong
 
 
 def _pages(size, seed):
     total, failures = pages.run(size.pages, seed)
     wrong = [f"seed {f['seed']}: {f['error']}" for f in failures]
-    again = "; show one again with python -m tests.fuzz.pages --show SEED" if wrong else ""
     reports = ", ".join(f"{total[f'report {k}']} reports with exit status {k}" for k in pages.STATUSES)
-    return f"{total['analysed']} designs, {reports}, {total['refused']} refused{again}", wrong
+    return f"{total['analysed']} designs, {reports}, {total['refused']} refused{AGAIN if wrong else ''}", wrong
 
 
 def _pieces(led, random, size, seed):
@@ -110,10 +119,15 @@ def main(arguments=None):
     parser.add_argument("--size", choices=SIZES, default="short")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--only", choices=PARTS, help="one part alone")
+    parser.add_argument("--show", type=int, metavar="SEED", help=f"of {' or '.join(SHOWN)}: this alone")
     for name, what in BUDGETS.items():
         parser.add_argument(f"--{name}", type=int, help=f"{what}, instead of those of the size")
     given = parser.parse_args(arguments)
     library()
+    if given.show is not None:
+        if given.only not in SHOWN:
+            parser.error(f"--show {given.show}: goes with --only {' or '.join(map(repr, SHOWN))}")
+        return _show(SHOWN[given.only], given.show)
     asked = {name: value for name in BUDGETS if (value := getattr(given, name)) is not None}
     size, few = replace(SIZES[given.size], **asked), FEW if given.size == "short" else interface.DESIGNS
     parts = {

@@ -1,17 +1,15 @@
 """Mutated designs loaded, and some of those that load analysed: a design, or one error that says what is wrong with it.
 
-``python -m tests.fuzz.designs --count N --analyse N --seed S`` runs in processes of their own: one that dies, or whose
-design takes more than ten seconds of its processor's time, is a failure that names the seed which shows it again.
+They are loaded in processes of their own: one that dies, or whose design takes more than ten seconds of its processor's
+time, is a failure that names the seed which shows it again.
 """
 
-import argparse
 import json
 import math
 import os
 import random
 import signal
 import struct
-import sys
 import tempfile
 import time
 import traceback
@@ -33,6 +31,9 @@ HANG = 10.0
 
 #: Designs a process handles before the next one begins.
 BATCH = 500
+
+#: Share of the analysed designs of which path and limits are sought too.
+DEEP = 0.2
 
 LONGEST_MESSAGE = 2000
 
@@ -106,11 +107,22 @@ def _quiet(chance, seed, folder, analyse, deep):
     return "analysed"
 
 
-def _one(seed, folder, share, deep):
-    """The outcome of a seed, counted."""
+def mutation(seed):
+    """(name of the seed's design, bytes of the mutated one)."""
+    return mutated(_chances(seed)[0])
+
+
+def _chances(seed):
+    """What draws the design of a seed, and two numbers that say whether it is analysed, and how deeply."""
     chance = random.Random(seed)
-    analyse = chance.random() < share
-    return Counter([_quiet(chance, seed, folder, analyse, chance.random() < deep)])
+    analyse, deep = chance.random(), chance.random()
+    return chance, analyse, deep
+
+
+def one(seed, folder, share=1.0, deep=DEEP):
+    """The outcome of a seed, counted; of ``share`` the design is analysed, of ``deep`` path and limits are sought."""
+    chance, analyse, deeply = _chances(seed)
+    return Counter([_quiet(chance, seed, folder, analyse < share, deeply < deep)])
 
 
 def batch(seeds, at, out, one, hang):
@@ -159,48 +171,19 @@ def forked(seeds, one, hang):
     return Counter({"failed": 1}), [{"seed": last, "error": why}], open_, (0.0, last)
 
 
-def run(count, analyse, seed=0, deep=0.0, say=lambda text: None):
-    """Counter of outcomes and the failures of ``count`` mutated designs, until ``analyse`` of them were analysed."""
-    total, failures, told, slowest = Counter(), [], 0, (0.0, seed)
+def run(count, analyse, seed=0, deep=0.0):
+    """Counter of outcomes and the failures of ``count`` mutated designs, until ``analyse`` of them were analysed; the
+    slowest: its seconds of processor time, its seed.
+    """
+    total, failures, slowest = Counter(), [], (0.0, seed)
     for first in range(0, count, BATCH):
         open_ = [list(range(seed + first, seed + min(first + BATCH, count)))]
         while open_:
             wanted, left = analyse - total["analysed"], count - sum(total.values())
             share = min(1.0, 3.5 * wanted / max(left, 1)) if wanted > 0 else 0.0
-            counted, failed, again, slow = forked(open_.pop(), partial(_one, share=share, deep=deep), HANG)
+            counted, failed, again, slow = forked(open_.pop(), partial(one, share=share, deep=deep), HANG)
             total += counted
             failures += failed
             open_ += again
             slowest = max(slowest, slow)
-        for failure in failures[told:]:
-            say(f"seed {failure['seed']}: {failure['error']}")
-        told = len(failures)
-        say(f"{sum(total.values())} {dict(total)}, slowest: {slowest[0]:.2f} s of processor time, seed {slowest[1]}")
-    return total, failures
-
-
-def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--count", type=int, default=2000)
-    parser.add_argument("--analyse", type=int, default=200)
-    parser.add_argument("--deep", type=float, default=0.0, help="share of which path and limits are sought")
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--show", type=int, help="print the design of this seed and what becomes of it")
-    given = parser.parse_args(arguments)
-    if given.show is not None:
-        chance = random.Random(given.show)
-        analyse, deep = chance.random() < 2.0, chance.random() < given.deep
-        state = chance.getstate()
-        name, content = mutated(chance)
-        print(f"# from {name}\n{content.decode('utf-8', 'backslashreplace')}", flush=True)
-        chance.setstate(state)
-        with tempfile.TemporaryDirectory() as folder:
-            print(_quiet(chance, given.show, folder, analyse, deep))
-        return 0
-    total, failures = run(given.count, given.analyse, given.seed, given.deep, lambda text: print(text, flush=True))
-    print(f"designs: {sum(total.values())} loaded, {dict(total)}, {len(failures)} failures")
-    return 1 if failures else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+    return total, failures, slowest

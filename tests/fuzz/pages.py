@@ -1,17 +1,14 @@
 """Mutated designs through the commands ``surface`` and ``report``: files, or one error that says what is wrong.
 
-``python -m tests.fuzz.pages --count N --seed S`` takes the first N mutated designs that load, in processes of their
-own: a traceback, a status that is none of the commands', an answer without its file, JSON with what is not a number and
-minutes without an end are failures that name the seed which shows them again.
+Of the first mutated designs that load, in processes of their own: a traceback, a status that is none of the commands',
+an answer without its file, JSON with what is not a number and minutes without an end are failures that name the seed
+which shows them again.
 """
 
-import argparse
 import contextlib
 import io
 import json
 import random
-import sys
-import tempfile
 from collections import Counter
 from pathlib import Path
 
@@ -63,9 +60,14 @@ def analysed(path):
     return found
 
 
+def mutation(seed):
+    """(name of the seed's design, bytes of the mutated one)."""
+    return mutated(random.Random(seed))
+
+
 def one(seed, folder):
     """What becomes of one mutated design: exit statuses counted, {} if it is refused."""
-    return outcomes(mutated(random.Random(seed))[1], folder)
+    return outcomes(mutation(seed)[1], folder)
 
 
 def outcomes(content, folder):
@@ -81,7 +83,7 @@ def _counted(seed, folder):
     return found + Counter(["analysed" if found else "refused"])
 
 
-def run(count, seed=0, say=lambda text: None):
+def run(count, seed=0):
     """Counter of outcomes and failures of mutated designs, until ``count`` of them were not refused."""
     total, failures, first = Counter(), [], seed
     while total["analysed"] + total["failed"] < count:
@@ -92,30 +94,4 @@ def run(count, seed=0, say=lambda text: None):
             total += counted
             failures += failed
             open_ += again
-        say(f"{dict(total)}")
-        for failure in failures[-3:]:
-            say(f"  seed {failure['seed']}: {failure['error'].splitlines()[-1]}")
     return total, failures
-
-
-def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--count", type=int, default=20)
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--show", type=int, help="print the design of this seed and what becomes of it")
-    given = parser.parse_args(arguments)
-    if given.show is not None:
-        name, content = mutated(random.Random(given.show))
-        print(f"# from {name}\n{content.decode('utf-8', 'backslashreplace')}", flush=True)
-        with tempfile.TemporaryDirectory() as folder:
-            print(dict(one(given.show, folder)) or "refused")
-        return 0
-    total, failures = run(given.count, given.seed, lambda text: print(text, flush=True))
-    for failure in failures:
-        print(f"seed {failure['seed']}: {failure['error']}", file=sys.stderr)
-    print(f"surface and report: {dict(total)}, {len(failures)} failures")
-    return 1 if failures else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -2,14 +2,11 @@
 
 The checker refuses each with a reason, or what was changed says nothing that it vouches for: prose. Anything but a
 reason is a failure, and so is a change that it accepts of what it does vouch for.
-``python -m tests.fuzz.records --count N --seed S``.
 """
 
-import argparse
 import copy
 import json
 import random
-import sys
 import tempfile
 import traceback
 from collections import Counter
@@ -132,19 +129,3 @@ def run(count, seed=0):
         total[outcome] += 1
         failures += [f"seed {k}: {wrong}"] if wrong else []
     return f"{total.total()} changed: {dict(total)}", failures
-
-
-def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--count", type=int, default=100)
-    parser.add_argument("--seed", type=int, default=0)
-    given = parser.parse_args(arguments)
-    words, failures = run(given.count, given.seed)
-    for failure in failures:
-        print(failure, file=sys.stderr)
-    print(words)
-    return 1 if failures else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

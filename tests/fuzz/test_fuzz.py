@@ -39,7 +39,7 @@ def test_any_value_of_any_key_is_a_design_or_an_error_that_says_why(tmp_path_fac
 
 
 def test_mutated_designs_are_read_or_refused_and_what_they_call_contact_touches():
-    total, failures = designs.run(150, 12)
+    total, failures, _ = designs.run(150, 12)
     assert not failures, failures
     assert total["refused"] > 50 and total["analysed"] > 5
 

@@ -10,6 +10,7 @@ a design file, angles in degrees; every length in mm.
 from mpmath import mp, mpf
 
 from tests.independent.chords import chords
+from tests.independent.vectors import dot
 
 MEMBERS = ("pinion", "gear")
 DEFAULTS = {
@@ -32,10 +33,6 @@ def rotation(axis, angle):
 
 def vector(*components):
     return mp.matrix([mpf(c) for c in components])
-
-
-def dot(a, b):
-    return sum(a[i] * b[i] for i in range(3))
 
 
 def cross(a, b):

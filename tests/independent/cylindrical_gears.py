@@ -8,6 +8,8 @@ from dataclasses import dataclass, field, replace
 
 from mpmath import acos, asin, atan, atan2, cos, findroot, mpf, pi, sin, sqrt, tan
 
+from tests.independent.vectors import rotate
+
 AMOUNTS = (
     "profile_crowning", "profile_slope", "tip_relief", "root_relief", "lead_crowning", "lead_slope", "flank_twist"
 )  # fmt: skip
@@ -104,12 +106,8 @@ class Gear:
         phi = roll / r
         n = -s * y_l, s * x_l, -s * (x_l * y_z - y_l * x_z)
         size = sqrt(sum(k**2 for k in n))
-        turned = rotated((x + r, y - roll, z), phi), rotated(n, phi)
+        turned = rotate("z", phi, (x + r, y - roll, z)), rotate("z", phi, n)
         return turned[0], tuple(k / size for k in turned[1])
-
-
-def rotated(p, t):
-    return p[0] * cos(t) - p[1] * sin(t), p[0] * sin(t) + p[1] * cos(t), p[2]
 
 
 @dataclass(frozen=True)
@@ -127,18 +125,16 @@ class Pair:
 
     def wheel_in_mesh(self, v, point):
         """Rx(−(Σ + Δh)) Ry(Δv), and the place of the wheel for a point."""
-        x, y, z = v[0], v[1], v[2] + (self.axial if point else 0)
-        x, z = x * cos(self.dv) + z * sin(self.dv), -x * sin(self.dv) + z * cos(self.dv)
-        a = -(self.sigma + self.dh)
-        y, z = y * cos(a) - z * sin(a), y * sin(a) + z * cos(a)
+        v = v[0], v[1], v[2] + (self.axial if point else 0)
+        x, y, z = rotate("x", -(self.sigma + self.dh), rotate("y", self.dv, v))
         return x + (self.distance + self.da if point else 0), y, z
 
     def placed(self, phi1, x):
         """Points and normals of both members in the fixed frame at the unknowns (l1, z1, l2, z2, error)."""
         p, w = self.pinion, self.wheel
         phi2 = mpf(p.z) / w.z * phi1 + x[4]
-        first = [rotated(v, phi1 - p.s * pi / (2 * p.z)) for v in p.flank(x[0], x[1])]
-        point, normal = (rotated(v, pi - phi2 - p.s * pi / (2 * w.z)) for v in w.flank(x[2], x[3]))
+        first = [rotate("z", phi1 - p.s * pi / (2 * p.z), v) for v in p.flank(x[0], x[1])]
+        point, normal = (rotate("z", pi - phi2 - p.s * pi / (2 * w.z), v) for v in w.flank(x[2], x[3]))
         return (*first, self.wheel_in_mesh(point, True), self.wheel_in_mesh(normal, False))
 
     def residual(self, phi1, x):

@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 
 from mpmath import acos, atan2, cos, findroot, lu_solve, matrix, mp, mpf, norm, pi, sin, sqrt, tan
 
+from tests.independent.vectors import dot
+
 PERM = matrix([[0, 0, 1], [0, 1, 0], [-1, 0, 0]])
 I = matrix([1, 0, 0])
 K = matrix([0, 0, 1])
@@ -20,10 +22,6 @@ def rz(a):
 
 def ry(a):
     return matrix([[cos(a), 0, sin(a)], [0, 1, 0], [-sin(a), 0, cos(a)]])
-
-
-def dot(a, b):
-    return sum(x * y for x, y in zip(a, b, strict=True))
 
 
 def cross(a, b):

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 
 from mpmath import asin, cos, cot, findroot, mp, mpf, pi, sin, sqrt, tan
 
+from tests.independent.vectors import rotate
+
 SENSE = {"convex": 1, "concave": -1}
 
 
@@ -54,12 +56,11 @@ class Gear:
 
     def flank(self, l, q):
         """Point and normal of the gear, body frame."""
-        (x, y, z), (nx, ny, nz), c = self.rack(l, q)
+        (x, y, z), normal, c = self.rack(l, q)
         alpha, r = self.alpha, self.r
         roll = self.s * (self.b + self.a * tan(alpha) - l * sin(alpha) - x / c * cot(alpha))
         phi = roll / r
-        point = (x + r) * cos(phi) - (y - roll) * sin(phi), (x + r) * sin(phi) + (y - roll) * cos(phi), z
-        return point, (nx * cos(phi) - ny * sin(phi), nx * sin(phi) + ny * cos(phi), nz)
+        return rotate("z", phi, (x + r, y - roll, z)), rotate("z", phi, normal)
 
     def undercut(self, axial):
         """Edge position l of the singular point of a section, from the closed condition."""
@@ -78,16 +79,6 @@ class Gear:
         return findroot(condition, guess)
 
 
-def _rz(t, p):
-    return p[0] * cos(t) - p[1] * sin(t), p[0] * sin(t) + p[1] * cos(t), p[2]
-
-
-def _tilt(dh, dv, p):
-    """Rx(dh) Ry(dv)."""
-    x, y, z = p[0] * cos(dv) + p[2] * sin(dv), p[1], -p[0] * sin(dv) + p[2] * cos(dv)
-    return x, y * cos(dh) - z * sin(dh), y * sin(dh) + z * cos(dh)
-
-
 @dataclass(frozen=True)
 class Pair:
     """A pinion and a wheel with misalignments (mm, rad)."""
@@ -102,14 +93,14 @@ class Pair:
         """Point and normal of the pinion in the fixed frame."""
         p = self.pinion
         turn1 = phi1 - p.s * p.b / p.r
-        return tuple(_tilt(self.dh, self.dv, _rz(turn1, v)) for v in p.flank(l1, q1))
+        return tuple(rotate("x", self.dh, rotate("y", self.dv, rotate("z", turn1, v))) for v in p.flank(l1, q1))
 
     def residual(self, phi1, l1, q1, l2, q2, error):
         p, w = self.pinion, self.wheel
         phi2 = mpf(p.teeth) / w.teeth * phi1 + error
         turn2 = pi - phi2 - w.s * w.b / w.r
         (r1, n1), (r2, n2) = self.pinion_in_mesh(phi1, l1, q1), w.flank(l2, q2)
-        r2, n2 = _rz(turn2, r2), _rz(turn2, n2)
+        r2, n2 = rotate("z", turn2, r2), rotate("z", turn2, n2)
         centre = p.r + w.r + self.dc
         return [r1[0] - r2[0] - centre, r1[1] - r2[1], r1[2] - r2[2], n1[0] + n2[0], n1[2] + n2[2]]
 

@@ -17,6 +17,7 @@ from meshwright.fe.closed_body import solid_body
 from meshwright.fe.thread_flanks import threads
 from meshwright.flank.patches import triangulated
 from meshwright.sensitivity import sensitivity
+from tests.independent.vectors import cross
 
 pytestmark = pytest.mark.validate
 
@@ -86,10 +87,6 @@ class Twin:
             return [*gap, twist[0], twist[2], meshing / 100]
 
         return of
-
-
-def cross(a, b):
-    return mpmath.matrix([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
 
 
 def exact_error(sign, errors, phi, contact, crown=0.001):

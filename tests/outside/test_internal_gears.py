@@ -18,6 +18,7 @@ from meshwright.contact.results import ARCSEC
 from meshwright.fe.closed_body import closed_body
 from meshwright.sensitivity import sensitivity
 from meshwright.shop.balls import sizes
+from tests.independent.vectors import cross, dot
 
 pytestmark = pytest.mark.validate
 
@@ -140,9 +141,8 @@ class Twin:
         def of(u, w, p, q, turn):
             apart = self.pinion(u, w, phi) - self.wheel(p, q, turn)
             a, b = slopes(self.wheel, p, q, turn)
-            normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-            across = (sum(x * y for x, y in zip(normal, way, strict=True)) for way in slopes(self.pinion, u, w, phi))
-            return [*apart, *across]
+            normal = cross(a, b)
+            return [*apart, *(dot(normal, way) for way in slopes(self.pinion, u, w, phi))]
 
         return of
 

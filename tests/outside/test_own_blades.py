@@ -15,7 +15,7 @@ from meshwright.contact.results import ARCSEC
 from meshwright.design import design as designs
 from meshwright.sensitivity import sensitivity
 from tests.independent.chords import chords
-from tests.independent.vectors import rotate
+from tests.independent.vectors import cross, rotate
 from tests.independent.worm import Helicoid, WormDrive, unit
 from tests.outside.folder import Commands
 from tests.worm.hob_tip import Balls
@@ -47,9 +47,7 @@ class Own(Helicoid):
         point, ends = curve(t), [curve(t + h) for h in (STEP, -STEP)]
         slope = [(a - b) / (2 * STEP) for a, b in zip(*ends, strict=True)]
         along = [-point[1], point[0], self.p]
-        cross = [slope[1] * along[2] - slope[2] * along[1], slope[2] * along[0] - slope[0] * along[2],
-                 slope[0] * along[1] - slope[1] * along[0]]  # fmt: skip
-        return point, unit([-self.s * c for c in cross])
+        return point, unit([-self.s * c for c in cross(slope, along)])
 
     def _ZY(self, t):
         (crown,) = self.own

@@ -108,25 +108,16 @@ def test_zi_is_straight_in_the_plane_that_touches_the_base_cylinder(flank):
 
 
 @pytest.mark.parametrize("flank", ["right", "left"])
-def test_zk_tends_to_zi_at_first_order_in_the_curvature_of_the_disc(flank):
-    target = _axial(_drive("ZI", flank=flank))
-    gaps = [
-        np.abs(_axial(_drive("ZK", flank=flank, grinding_wheel_radius_mm=radius)) - target).max()
-        for radius in (1e4, 1e5, 1e6, 1e7)
-    ]
+@pytest.mark.parametrize(
+    ("form", "curved", "limit", "gap"),
+    [("ZK", "grinding_wheel_radius_mm", "ZI", 1e-6), ("ZC", "profile_arc_radius_mm", "ZK", 1e-5)],
+)
+def test_a_form_tends_to_its_limit_at_first_order_in_the_curvature_of_disc_or_arc(form, curved, limit, gap, flank):
+    target = _axial(_drive(limit, flank=flank))
+    radii = (1e4, 1e5, 1e6, 1e7)
+    gaps = [np.abs(_axial(_drive(form, flank=flank, **{curved: radius})) - target).max() for radius in radii]
     assert np.allclose(np.divide(gaps[:-1], gaps[1:]), 10.0, rtol=0.02)
-    assert gaps[-1] < 1e-6
-
-
-@pytest.mark.parametrize("flank", ["right", "left"])
-def test_zc_tends_to_zk_at_first_order_in_the_curvature_of_the_arc(flank):
-    target = _axial(_drive("ZK", flank=flank))
-    gaps = [
-        np.abs(_axial(_drive("ZC", flank=flank, profile_arc_radius_mm=radius)) - target).max()
-        for radius in (1e4, 1e5, 1e6, 1e7)
-    ]
-    assert np.allclose(np.divide(gaps[:-1], gaps[1:]), 10.0, rtol=0.02)
-    assert gaps[-1] < 1e-5
+    assert gaps[-1] < gap
 
 
 @pytest.mark.parametrize("radius", [40.0, 200.0, 3000.0])
