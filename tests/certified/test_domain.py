@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from tests.certified.arithmetic import C, halved, library_of
+from tests.certified.arithmetic import C, halved, header, library_of
 from tests.certified.test_arithmetic import cases, misses, numbers
 from tests.certified.test_proof import LANES, D, N, systems
 
@@ -131,20 +131,12 @@ settle image: above[l], ⟦of->wide[i]⟧ + most[i][l]);
 }
 
 
-def _header(name, change):
-    text = (C / "certify" / name).read_text(encoding="utf-8")
-    if change and change[0] == name:
-        assert text.count(change[1]) == 1, change[1]
-        text = text.replace(change[1], change[2])
-    return text
-
-
 def compiled(folder, change=None):
     """The harness of the headers as they are, or with one text of one of them replaced."""
     for name in ("ball.h", "lane.h", "wide.h", "run.h", "tables.h", "units.h", "domain.h", "settle.h"):
         place = folder / "certify" / name
         place.parent.mkdir(exist_ok=True)
-        place.write_text(_header(name, change), encoding="utf-8")
+        place.write_text(header(name, change[1:] if change and change[0] == name else None), encoding="utf-8")
     for name in ("circular.h", "mw_enclosures.h", "mw_certified.h"):
         (folder / name).write_text((C / name).read_text(encoding="utf-8"), encoding="utf-8")
     bodies = OPERATIONS | {name: f"m = a.mid * b.mid; {body}" for name, body in PRODUCTS.items()}

@@ -52,22 +52,25 @@ BALLS = {"sqrt": [lambda a, _: a.sqrt()], "atan2": [flint.arb.atan2],
          "sincos": [lambda a, _: a.sin(), lambda a, _: a.cos()]}  # fmt: skip
 
 
-def misses(loaded, op, a, b):
-    """How often a value at some t, with the arguments at an end of their radii, lies outside the result."""
-    found, count = run(loaded, op, a, b), 0
-    for k in range(len(a)):
+def missing(op, arguments, found, places, at):
+    """How often a value at a place, with the arguments at an end of their radii, lies outside the results: rows of all
+    of these end with a radius.
+    """
+    count = 0
+    for k in range(len(arguments[0])):
         held = [result[k] for result in found if np.isfinite(result[k]).all()]
-        for t in (Fraction(-1), Fraction(1), Fraction(1, 3)):
-            middles = [(at(row, t), Fraction(float(row[-1]))) for row in held]
+        for place in places:
+            middles = [(at(row, place), Fraction(float(row[-1]))) for row in held]
+            ends = [(at(rows[k], place), Fraction(float(rows[k][-1]))) for rows in arguments]
             for sides in ((-1, -1), (-1, 1), (1, -1), (1, 1), (0, 0)):
-                ends = (at(r[k], t) + s * Fraction(float(r[k][-1])) for r, s in zip((a, b), sides, strict=True))
-                values = _values(op, *ends)
+                x, y = (middle + side * radius for (middle, radius), side in zip(ends, sides, strict=True))
+                values = [EXACT[op](x, y)] if op in EXACT else [f(arb(x), arb(y)) for f in BALLS[op]]
                 count += sum(outside(value, *middle) for value, middle in zip(values, middles, strict=False))
     return count
 
 
-def _values(op, x, y):
-    return [EXACT[op](x, y)] if op in EXACT else [f(arb(x), arb(y)) for f in BALLS[op]]
+def misses(loaded, op, a, b):
+    return missing(op, (a, b), run(loaded, op, a, b), (Fraction(-1), Fraction(1), Fraction(1, 3)), at)
 
 
 def outside(value, middle, radius):

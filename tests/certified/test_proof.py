@@ -6,7 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from tests.certified.arithmetic import C, halved, library_of
+from tests.certified.arithmetic import halved, header, library_of
 
 N, D = 5, ctypes.POINTER(ctypes.c_double)
 LANES = (1, 4)
@@ -30,12 +30,9 @@ shift: z[i][l] = (⟦mwc_abs(sum[l])⟧ + radius[l]) * MWC_READ;
 )
 
 
-def compiled(folder, replaced=()):
+def compiled(folder, replaced=None):
     """The test as it is, or with one text of its header replaced: number of lanes → function."""
-    text = (C / "certify" / "point.h").read_text(encoding="utf-8").replace('#include "lane.h"', "")
-    for old, new in [replaced] if replaced else []:
-        assert text.count(old) == 1, old
-        text = text.replace(old, new)
+    text = header("point.h", replaced).replace('#include "lane.h"', "")
     parts = ['#include "certify/lane.h"\n']
     for lanes in LANES:
         parts.append(f"#define MW_LANES {lanes}\n{text}\n{_PROVE.format(lanes=lanes, n=N)}\n#undef MW_LANES\n")

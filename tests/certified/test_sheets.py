@@ -7,8 +7,7 @@ import pytest
 
 from tests.certified import arithmetic
 from tests.certified.arithmetic import C, halved, header, operations
-from tests.certified.test_arithmetic import arb
-from tests.certified.test_polynomials import BALLS, BINARY, EXACT, UNARY, outside
+from tests.certified.test_polynomials import BINARY, UNARY, missing
 
 pytestmark = pytest.mark.usefixtures("many_digits")
 
@@ -79,18 +78,10 @@ def at(row, place):
 
 
 def misses(loaded, op, a, b):
-    """How often a value somewhere, with the arguments at an end of their radii, lies outside the result."""
-    found, count, one = run(loaded, op, a, b), 0, Fraction(1)
-    for k in range(len(a)):
-        held = [result[k] for result in found if np.isfinite(result[k][: RADIUS + 1]).all()]
-        for place in ((-one, -one, -one), (one, -one, one), (one, one, one), (one / 3, -one / 2, one / 5)):
-            middles = [(at(row, place), Fraction(float(row[RADIUS]))) for row in held]
-            ends = [(at(r[k], place), Fraction(float(r[k][RADIUS]))) for r in (a, b)]
-            for sides in ((-1, -1), (-1, 1), (1, 1), (0, 0)):
-                x, y = (middle + e * radius for (middle, radius), e in zip(ends, sides, strict=True))
-                values = [EXACT[op](x, y)] if op in EXACT else [f(arb(x), arb(y)) for f in BALLS[op]]
-                count += sum(outside(value, *middle) for value, middle in zip(values, middles, strict=False))
-    return count
+    one = Fraction(1)
+    places = ((-one, -one, -one), (one, -one, one), (one, one, one), (one / 3, -one / 2, one / 5))
+    found = [result[:, : RADIUS + 1] for result in run(loaded, op, a, b)]
+    return missing(op, [rows[:, : RADIUS + 1] for rows in (a, b)], found, places, at)
 
 
 def sheets(rng, count, radii, kept=slice(0, HELD)):

@@ -102,9 +102,7 @@ def test_casadi_finds_the_same_contact(name):
 def _in_fifty_digits(drive, contact, angle):
     """Transmission error and contact point of the only row of ``contact``, by the family's independent formulation."""
     if drive.design.family == "bevel":
-        tables = {name: {k: v for k, v in entry.items() if v is not None} if isinstance(entry, dict) else entry
-                  for name, entry in drive.design.tables.items()}  # fmt: skip
-        pair, x = exact_contact(tables, contact, 0, angle)
+        pair, x = exact_contact(drive.design.given(), contact, 0, angle)
         r, n, _ = pair.pinion.surface(*x[:3])
         return pair.error(x, angle), pair.place_pinion(r, n, mpmath.mpf(angle))[0]
     keys = [p for p in drive.design.description["parameters"] if is_real(p) and _given(drive, p)]

@@ -23,15 +23,15 @@ DRIVE = "cylindrical_worm_zn_zn"
 CORE, HEADERS = "libmeshwright.so", ("mw_certify.h", "meshwright.h")
 COMMAND = ("tca", "recess-action-full", "--phi-deg", "0:2000:100", "--json", "-")
 
-#: Compiler's name of every platform, by the tag of its wheel.
+#: Of every platform, by the tag of its wheel: the compiler's name, kind of file, processor.
 PLATFORMS = {
-    "manylinux_2_17_x86_64": "x86_64-linux-gnu.2.17",
-    "manylinux_2_17_aarch64": "aarch64-linux-gnu.2.17",
-    "musllinux_1_2_x86_64": "x86_64-linux-musl",
-    "musllinux_1_2_aarch64": "aarch64-linux-musl",
-    "macosx_11_0_arm64": "aarch64-macos.11.0",
-    "macosx_11_0_x86_64": "x86_64-macos.11.0",
-    "win_amd64": "x86_64-windows-gnu",
+    "manylinux_2_17_x86_64": ("x86_64-linux-gnu.2.17", "ELF", "X86_64"),
+    "manylinux_2_17_aarch64": ("aarch64-linux-gnu.2.17", "ELF", "AARCH64"),
+    "musllinux_1_2_x86_64": ("x86_64-linux-musl", "ELF", "X86_64"),
+    "musllinux_1_2_aarch64": ("aarch64-linux-musl", "ELF", "AARCH64"),
+    "macosx_11_0_arm64": ("aarch64-macos.11.0", "Mach-O", "ARM64"),
+    "macosx_11_0_x86_64": ("x86_64-macos.11.0", "Mach-O", "X86_64"),
+    "win_amd64": ("x86_64-windows-gnu", "PE", "AMD64"),
 }
 
 #: Packages that make up a Linux of the other processor on which Python runs, and a C library that is not GNU's.
@@ -103,14 +103,6 @@ def exported(lief, path):
     return "ELF", library.header.machine_type.name, names
 
 
-#: Kind of file and processor of every tag.
-KINDS = {
-    "manylinux_2_17_x86_64": ("ELF", "X86_64"), "manylinux_2_17_aarch64": ("ELF", "AARCH64"),
-    "musllinux_1_2_x86_64": ("ELF", "X86_64"), "musllinux_1_2_aarch64": ("ELF", "AARCH64"),
-    "macosx_11_0_arm64": ("Mach-O", "ARM64"), "macosx_11_0_x86_64": ("Mach-O", "X86_64"), "win_amd64": ("PE", "AMD64"),
-}  # fmt: skip
-
-
 @pytest.mark.parametrize("tag", PLATFORMS)
 def test_the_libraries_of_a_wheel_export_all_that_the_package_calls(unpacked, tag):
     """Every function that the wheel's headers declare for the package by the core, its table by the drive; a library of
@@ -122,12 +114,12 @@ def test_the_libraries_of_a_wheel_export_all_that_the_package_calls(unpacked, ta
     declared = "".join(re.search(r"BEGIN INTERFACE.*?\*/(.*)END INTERFACE", text, re.DOTALL)[1] for text in headers)
     names = set(re.findall(r"^[\w *]*\b(mw_\w+)\(", declared, re.MULTILINE))
     kind, processor, offered = exported(lief, folder / CORE)
-    assert (kind, processor) == KINDS[tag]
+    assert (kind, processor) == PLATFORMS[tag][1:]
     assert names and names <= offered
     for ending in ("", "_in_lanes", "_proofs"):
         name = f"mw{ending or '_drive'}_{DRIVE}"
         kind, processor, offered = exported(lief, folder / f"{DRIVE}{ending}.so")
-        assert (kind, processor) == KINDS[tag]
+        assert (kind, processor) == PLATFORMS[tag][1:]
         assert name in offered
     if kind == "PE":
         library = lief.parse(str(folder / f"{DRIVE}.so"))
@@ -140,7 +132,7 @@ def program(tag, unpacked, folder):
     include = unpacked(tag) / "meshwright" / "_generated" / "include"
     # a shared C library, which loads others, is not zig's choice for musl
     dynamic = ("-dynamic",) if "musl" in tag else ()
-    c.run(*c.CLANG, "cc", "-target", PLATFORMS[tag], *dynamic, "-O1", *c.EXACT, f'-DCORE="{CORE}"', f"-I{include}",
+    c.run(*c.CLANG, "cc", "-target", PLATFORMS[tag][0], *dynamic, "-O1", *c.EXACT, f'-DCORE="{CORE}"', f"-I{include}",
           Path(__file__).with_name("loaded.c"), "-o", output)  # fmt: skip
     return output
 

@@ -62,10 +62,7 @@ def twin(drive, contact):
 
 def _tables(drive, values):
     """Tables of the design with values (mm, rad) put in, in the units of the keys."""
-    tables = {
-        name: {k: v for k, v in entry.items() if v is not None} if isinstance(entry, dict) else entry
-        for name, entry in drive.design.tables.items()
-    }
+    tables = drive.design.given()
     for place, value in values.items():
         table, key = place.split(".")
         unit = 180 / mpmath.pi if key.endswith("_deg") else 1000 if key.endswith("_um") else 1

@@ -66,7 +66,7 @@ def test_the_placement_of_a_head_cutter_follows_the_keys_of_each_sample(name, ch
         sweep.Variation("design.gear_inner_radius_mm", "uniform", 39.5, 40.5),
         sweep.Variation("misalignment.axial_mm", "uniform", -0.05, 0.05),
     )
-    plan = sweep.Plan(_tables(drive), variations, ANGLES, 5, seed=1)
+    plan = sweep.Plan(drive.design.given(), variations, ANGLES, 5, seed=1)
     rows = sweep.solve(plan, 0)
     for k in range(5):
         module, radius, axial = map(float, rows.values[k])
@@ -81,26 +81,18 @@ def test_a_placement_that_is_varied_is_given_and_the_rest_follows():
     drive = Drive.load("face-worm-conical-convex")
     nominal = drive.design.as_solved()["placement"]["A1_z_mm"]
     variation = sweep.Variation("placement.A1_z_mm", "uniform", nominal - 1e-4, nominal + 1e-4)
-    rows = sweep.solve(sweep.Plan(_tables(drive), (variation,), ANGLES, 3), 0)
+    rows = sweep.solve(sweep.Plan(drive.design.given(), (variation,), ANGLES, 3), 0)
     for k in range(3):
         result = drive.with_(placement={"A1_z_mm": float(rows.values[k, 0])}).tca(np.array(ANGLES))
         assert np.abs(rows.points[k] - result.points).max() < 1e-9
     assert np.ptp(rows.points[:, 0, 0]) > 1e-6
 
 
-def _tables(drive):
-    """Tables of a drive's design without the keys left open."""
-    return {
-        name: {k: v for k, v in entry.items() if v is not None} if isinstance(entry, dict) else entry
-        for name, entry in drive.design.tables.items()
-    }
-
-
 def test_a_left_hand_drive_is_swept_as_it_is_analysed():
     drive = Drive.load("plain-zn").with_(design={"hand": "left"})
     variation = sweep.Variation("misalignment.vertical_deg", "uniform", -0.02, 0.02)
     angles = np.array(ANGLES) / 10
-    rows = sweep.solve(sweep.Plan(_tables(drive), (variation,), tuple(angles), 4), 0)
+    rows = sweep.solve(sweep.Plan(drive.design.given(), (variation,), tuple(angles), 4), 0)
     for k in range(4):
         result = drive.with_(misalignment={"vertical_deg": float(rows.values[k, 0])}).tca(angles)
         assert np.abs(rows.error[k] - result.error).max() < 1e-12

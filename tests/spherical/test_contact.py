@@ -25,10 +25,10 @@ def _pair(pair, forms, radii, **changes):
     return pair(*forms, **{name: r for name, r in zip(names, radii, strict=True) if r}, **changes)
 
 
-def _exact(forms, radii, s, misalignment):
+def _exact(forms, radii, s, misalignment, module=4):
     alpha = mpmath.radians(20)
     gears = [
-        Gear(4, teeth, alpha, form, radius and mpmath.mpf(radius), s)
+        Gear(module, teeth, alpha, form, radius and mpmath.mpf(radius), s)
         for teeth, form, radius in zip((36, 72), forms, radii, strict=True)
     ]
     return Pair(
@@ -69,11 +69,7 @@ def test_extreme_sizes_agree_with_fifty_digits(pair, module, forms, radii, error
     result = drive.tca([0.03])
     found = [*(result.unknowns[name][0] for name in list(result.unknowns)[:4]), result.error[0]]
     with mpmath.workdps(50):
-        gears = [
-            Gear(module, teeth, mpmath.radians(20), form, radius and mpmath.mpf(radius), 1)
-            for teeth, form, radius in zip((36, 72), forms, radii, strict=True)
-        ]
-        exact = Pair(*gears, mpmath.mpf(errors[0]), mpmath.radians(errors[1]), mpmath.radians(errors[2]))
+        exact = _exact(forms, radii, 1, misalignment, module)
         exact = [float(x) for x in exact.refined(mpmath.mpf(0.03), found)]
     assert found[:4] == pytest.approx(exact[:4], rel=1e-13)
     assert found[4] == pytest.approx(exact[4], abs=1e-15)

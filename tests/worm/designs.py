@@ -45,3 +45,9 @@ def without_blank(name, folder):
     path = folder / f"{name}-bare.toml"
     path.write_text(design + rest[rest.index("[contact]") :], encoding="utf-8")
     return str(path)
+
+
+def misaligned(worm, hob, shaft_angle, errors, **changes):
+    """One of these with an oversize hob, at a shaft angle in degrees, with errors of assembly."""
+    tables = plain(worm, hob, hob_pitch_radius_mm=21.5, shaft_angle_deg=shaft_angle, **changes)
+    return changed(tables, {f"misalignment.{key}": value for key, value in errors.items()})
