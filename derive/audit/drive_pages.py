@@ -136,11 +136,8 @@ LONGEST = 220
 def _shown(data: object) -> Markup:
     """An expression or vector of a description as a formula."""
     tree = _readable(tuple(data) if isinstance(data, tuple) else data)
-    return Markup('<span class="small">{}</span>').format(tree) if isinstance(tree, Markup) else _formula(tree)
-
-
-def _formula(tree: Tree) -> Markup:
-    return Markup(_MATH.formula(tree))
+    small = isinstance(tree, Markup)
+    return Markup('<span class="small">{}</span>').format(tree) if small else Markup(_MATH.formula(tree))
 
 
 def _named(name: str, data: object) -> Markup:

@@ -22,7 +22,8 @@ def certificate(decision: Decision) -> dict:
             return {"kind": "ring_nf", **body, **instance, **_proof(decision)}
         case Outcome.REFUTED:
             roots = [{"radicand": radicand} for radicand, _, _ in decision.roots]
-            return {"kind": "exact_point", **body, **instance, "roots": roots, "differs": _differing(decision)}
+            differs = [k for k, part in enumerate(decision.components) if part.outcome is Outcome.REFUTED]
+            return {"kind": "exact_point", **body, **instance, "roots": roots, "differs": differs}
         case Outcome.UNDECIDED:
             return {"kind": "undecided", **body}
 
@@ -65,10 +66,6 @@ def decimal(value: Fraction) -> str:
         padded = digits.rjust(1 - exponent, "0")
         return f"{sign}{padded[:exponent]}.{padded[exponent:]}"
     return f"{sign}{digits}e{exponent}"
-
-
-def _differing(decision: Decision) -> list[int]:
-    return [k for k, component in enumerate(decision.components) if component.outcome is Outcome.REFUTED]
 
 
 def _proof(decision: Decision) -> dict:

@@ -6,7 +6,7 @@ vanishes; a point at which the sides differ is a refutation; anything else is un
 """
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from derive.prove.evaluate import Evaluator, components
@@ -89,8 +89,7 @@ def decide(statement: Statement, backend: str = BACKENDS[0]) -> Decision:
     reduced = [_reduced(evaluator, left - right) for left, right in zip(*sides, strict=True)]
     instance, refuted = _instance(evaluator, sides, [bool(part.remainder) for part in reduced])
     parts = tuple(
-        Component(_outcome(part, k in refuted), part.numerator, part.denominators, part.cofactors, part.remainder)
-        for k, part in enumerate(reduced)
+        replace(part, outcome=Outcome.REFUTED) if k in refuted else part for k, part in enumerate(reduced)
     )
     roots = tuple((root.radicand, root.generator, evaluator.ring.terms(root.divisor)) for root in evaluator.roots)
     return Decision(statement, evaluator.ring.names, evaluator.relations, roots, evaluator.arcs, parts, instance)
@@ -110,10 +109,6 @@ def _as_terms(evaluator: Evaluator, factors: Factors) -> tuple[tuple[Terms, int]
     return tuple(
         sorted(((evaluator.ring.terms(factor), times) for factor, times in factors), key=lambda item: text_of(item[0]))
     )
-
-
-def _outcome(component: Component, refuted: bool) -> Outcome:
-    return Outcome.REFUTED if refuted else component.outcome
 
 
 def _instance(evaluator: Evaluator, sides, open_parts: list[bool]) -> tuple[Instance | None, set[int]]:

@@ -143,7 +143,9 @@ class _Cut:
         """Add the triangles and border edges of one cell."""
         around, inside = self._around(i, j)
         if len(inside) == 2 and inside[1] - inside[0] == 2 and not self._inside_at(i, j):
-            parts = [self._corner_part(around, k) for k in self._inside_positions(around)]
+            # a triangle about each of two opposite nodes
+            nodes = [k for k, v in enumerate(around) if v not in self.limit]
+            parts = [[around[k], around[(k + 1) % len(around)], around[k - 1]] for k in nodes]
         else:
             parts = [around]
         for part in parts:
@@ -162,13 +164,6 @@ class _Cut:
             if edges[k] in self.crossings:
                 around.append(self.crossings[edges[k]])
         return around, inside
-
-    def _inside_positions(self, around):
-        return [k for k, v in enumerate(around) if v not in self.limit]
-
-    def _corner_part(self, around, k):
-        """The triangle about one node of a cell of which only opposite nodes are inside."""
-        return [around[k], around[(k + 1) % len(around)], around[k - 1]]
 
     def _inside_at(self, i, j):
         lines = self.lattice.lines

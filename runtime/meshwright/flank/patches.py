@@ -50,17 +50,13 @@ def triangulated(patches: list[Patch]) -> tuple[Floats, Ints]:
         first += n * m
     label = np.arange(len(points))
     rim = np.unique(np.concatenate(rims))
-    label[rim] = rim[_first_of_each(points[rim])]
+    same = KDTree(points[rim]).query_pairs(TOGETHER, output_type="ndarray")
+    label[rim] = rim[first_of_groups(same, len(rim))]
     triangles = label[np.concatenate(parts)]
     flat = np.sort(triangles, axis=1)
     triangles = triangles[(np.diff(flat, axis=1) > 0).all(axis=1)]
     used, numbered = np.unique(triangles, return_inverse=True)
     return points[used], numbered.reshape(-1, 3)
-
-
-def _first_of_each(points: Floats) -> Ints:
-    """For each of points (N, 3) the number of the first one that is the same."""
-    return first_of_groups(KDTree(points).query_pairs(TOGETHER, output_type="ndarray"), len(points))
 
 
 def first_of_groups(pairs: Ints, count: int) -> Ints:

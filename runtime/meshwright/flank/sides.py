@@ -123,10 +123,6 @@ class RegionSide:
             return root, root
         return root, (fillet.lower if self.land else fillet.upper)
 
-    def flank_lines(self, values: Floats) -> Lines:
-        """The flank in sections, up to where it meets the fillet."""
-        return self.at(values)[0]
-
     def breaks(self) -> Floats:
         """As :class:`Side` says."""
         at = np.linspace(*self.reach, 4 * len(self.flank.along))[1:-1]

@@ -98,7 +98,7 @@ class Crossing:
         pieces = [Piece.of(side, low, high) for low, high, cut in spans if cut]
         if not pieces:
             return None
-        line = side.flank_lines(np.array([0.5 * (pieces[0].first + pieces[0].last)]))
+        line = side.at(np.array([0.5 * (pieces[0].first + pieces[0].last)]))[0]
         low, high = (side.sections.height(line.region.flank(end).points)[0] for end in (line.lower, line.upper))
         return cls(side.sections, reach, tuple(pieces), float(np.sign(high - low) * (1.0 if side.tip else -1.0)))
 

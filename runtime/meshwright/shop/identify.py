@@ -17,7 +17,7 @@ from meshwright.design import design as designs
 from meshwright.design.description import table_and_key
 from meshwright.drive import Drive
 from meshwright.shop.least_squares import Estimate, estimate
-from meshwright.shop.located import Rays, along, located, rays
+from meshwright.shop.located import along, located, rays
 
 ARCSEC = math.pi / 648000.0
 
@@ -142,12 +142,9 @@ class Parameters:
         found = np.empty(len(self.points.tooth))
         for word, rows, start in zip(self.flanks.words, self.flanks.rows, self.flanks.parameters, strict=True):
             side = drive if word == drive.design.tables["flank"] else drive.with_(flank=word)
-            ray = self._rays(tuple(p[rows] for p in points), self.points.tooth[rows])
+            ray = rays(self.drive, self.member, tuple(p[rows] for p in points), self.points.tooth[rows])
             found[rows] = along(side.flank(self.member), start, ray)[1]
         return found
-
-    def _rays(self, points, tooth) -> Rays:
-        return rays(self.drive, self.member, points, tooth)
 
     def changed(self, values):
         """The drive with errors ``values`` (K,) of the keys of its design; what is held stays."""
