@@ -1,7 +1,5 @@
 """Two elastic blocks pressed together: the models of the patch test and of the Hertz tests."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

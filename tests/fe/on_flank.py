@@ -1,7 +1,5 @@
 """Whether points lie on a generated flank: found from their coordinates and the compiled surface alone."""
 
-from __future__ import annotations
-
 import numpy as np
 
 _STEPS, _HALVINGS = 60, 12

@@ -3,8 +3,6 @@
 One rack section (straight edge with a tip arc) swept along a circular arc; see the spherical report, (2.1)-(2.13).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """An aligned spherical pair with its contact in closed form, for the tests of loaded contact."""
 
-from __future__ import annotations
-
 import numpy as np
 from spherical_gear import SphericalGear
 

@@ -1,7 +1,5 @@
 """One finite-element position from gear pair to judged result, kept in a folder so that it need not be solved twice."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Callable

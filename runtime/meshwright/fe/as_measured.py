@@ -1,7 +1,5 @@
 """An as-measured flank under load: its unloaded contact, and what its deviations take from the gap."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 

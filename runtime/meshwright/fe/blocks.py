@@ -1,7 +1,5 @@
 """Structured blocks of hexahedra and the graded divisions of their edges."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

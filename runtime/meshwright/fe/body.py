@@ -1,7 +1,5 @@
 """The mesh of a member: any number of teeth joined along their cut rims."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

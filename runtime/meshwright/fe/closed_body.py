@@ -4,8 +4,6 @@ Flanks, fillets, tips, root lands, end faces and bore are patches with common ed
 flanks, or B-splines through the patches' points, depart from the exact surfaces by no more than is asked for.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace

@@ -15,8 +15,6 @@ Stefanov, Spline transformations, 1971). Linear interpolation between centres wo
 the length of a patch on the pressure.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 

@@ -4,8 +4,6 @@ Units N, mm, MPa.  Every node and element number is one-based and contiguous ove
 order; every real number carries an exponent, because CalculiX reads ``1`` where a real is due as 0.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 

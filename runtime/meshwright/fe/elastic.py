@@ -4,8 +4,6 @@ Eight-node elements with incompatible modes that pass the patch test: R. L. Tayl
 A non-conforming element for stress analysis (1976).
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.sparse import coo_matrix, csc_matrix
 

@@ -1,7 +1,5 @@
 """How far flat facets are from the surface on which their corners lie, and how many rows bring that below a limit."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from meshwright.fe.hexahedra import Floats

@@ -16,8 +16,6 @@ edge are therefore those of the flank's own coordinates: no cell lies beyond the
 are those of the middles of cells, which leaves a remainder of either sign: what of it is negative is left out.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache

@@ -4,8 +4,6 @@ CalculiX may print "Job finished", return 0 and be wrong by orders of magnitude,
 against equilibrium, against the contact theory and against the mesh it was given.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

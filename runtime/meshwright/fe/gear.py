@@ -6,8 +6,6 @@ axis and at the smaller of one along the radius. Sizes come from the drive's fun
 (``derive.language.functions``).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 

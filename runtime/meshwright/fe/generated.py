@@ -1,7 +1,5 @@
 """What all solid models share: generated regions as functions of two parameters, and turns."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@ Its teeth are those of its regions; what the tool leaves no whole tooth of is re
 the description names, and the widest face that can be had.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from meshwright.base.errors import DesignError

@@ -4,8 +4,6 @@ Source: A. E. H. Love, The stress produced in a semi-infinite solid by pressure 
 K. L. Johnson, Contact Mechanics, (3.25).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from meshwright.fe.hexahedra import Floats

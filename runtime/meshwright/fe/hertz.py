@@ -5,8 +5,6 @@ from SciPy in Carlson's symmetric form, in which nothing cancels between the cir
 Source of the formulae: K. L. Johnson, Contact Mechanics, sections 4.2 and 4.2(c).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import pi, sqrt

@@ -3,8 +3,6 @@
 Node order and face labels are those of CalculiX and Abaqus: nodes 1-4 below, 5-8 above, right-handed.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

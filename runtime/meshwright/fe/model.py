@@ -1,7 +1,5 @@
 """The finite-element model of a gear pair at one position, as a CalculiX deck."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Literal
 

@@ -14,8 +14,6 @@ Integrals are over what the master covers. A corner of a face that it does not c
 the face stand for it. So do pressures here, and their moment is that of the load to 0.1 % also where a tip cuts faces.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -5,8 +5,6 @@ touches the flanks open like a wedge to one side and there is nothing on the oth
 may come into contact too: the rectangle is found from the gaps.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from meshwright.fe.gap import Bools, ContactGrid, ContactPlane, cell_centres, contact_grid

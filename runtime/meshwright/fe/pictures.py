@@ -1,7 +1,5 @@
 """Pictures of a solved position: mesh with von Mises stress, pressure over the flanks, stress over the pinion angle."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

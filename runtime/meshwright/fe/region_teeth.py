@@ -4,8 +4,6 @@ Sections are the planes, cylinders or cones about the axis that the drive declar
 curves of fillet and flank run from the root land to the tip, by the generated surface's own profile parameter.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

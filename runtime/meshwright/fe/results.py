@@ -3,8 +3,6 @@
 Both have fixed columns and are cut there: neighbouring numbers touch when they are negative.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The rim below the root of a tooth, down to a bore about the axis."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What a drive says of its solid teeth: sizes of a member, and the drive of either flank."""
 
-from __future__ import annotations
-
 from meshwright.contact.functions import has
 from meshwright.design import design as designs
 from meshwright.drive import Drive

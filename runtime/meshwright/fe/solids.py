@@ -1,7 +1,5 @@
 """The loaded-contact view of a drive: teeth of the form that it says, placement and contact from its analysis."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import replace

@@ -5,8 +5,6 @@ largest von Mises stress below the surface of either flank inside the contact zo
 Mises and the largest principal stress on the surface of the fillets of the teeth in contact.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

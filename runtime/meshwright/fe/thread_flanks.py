@@ -5,8 +5,6 @@ is that of the next groove; where flanks have designs of their own, the second o
 Arcs join flanks and root.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

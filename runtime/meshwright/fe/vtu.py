@@ -1,7 +1,5 @@
 """VTK unstructured grids (``.vtu``) of solved bodies."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np
