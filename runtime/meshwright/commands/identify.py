@@ -61,14 +61,8 @@ def run(options):
 def _tolerances(texts):
     found = {}
     for text in texts:
-        key, _, value = text.partition("=")
-        try:
-            size = float(value)
-        except ValueError:
-            size = math.nan
-        if not (math.isfinite(size) and size > 0.0):
-            raise UsageError(f"--tolerance {text}: not KEY=SIZE with a size above zero; e.g. pose.axial_mm=0.02")
-        table, name = table_and_key(key.strip())
+        key, size = common.key_and_size("--tolerance", text, "pose.axial_mm=0.02")
+        table, name = table_and_key(key)
         found[f"{table}.{name}"] = size
     return found
 

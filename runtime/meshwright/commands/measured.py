@@ -20,7 +20,7 @@ from meshwright.contact.results import ARCSEC
 from meshwright.cycle.pairs import Mesh
 from meshwright.shop.as_measured import AsMeasured
 from meshwright.shop.measured import measured
-from meshwright.shop.tables import read_csv
+from meshwright.shop.tables import read_measured
 
 
 def add_arguments(parser):
@@ -35,9 +35,7 @@ def add_arguments(parser):
 
 def run(options):
     drive = common.drive_of(options)
-    points, _ = read_csv(options.measured)
-    if not np.isfinite(points.deviations).any():
-        raise UsageError(f"{options.measured}: deviation_um is empty in every line; fill in what was measured")
+    points = read_measured(options.measured)
     if not options.contact and (options.tooth or options.phi_deg):
         raise UsageError("--phi-deg and --tooth are of the contact: add --contact")
     with progress(4 if options.contact else 1) as step:

@@ -103,6 +103,15 @@ def positive(text):
     return value
 
 
+def key_and_size(option, text, example):
+    """``KEY=SIZE`` as (key, size above zero)."""
+    key, _, size = text.partition("=")
+    try:
+        return key.strip(), positive(size.strip())
+    except argparse.ArgumentTypeError:
+        raise UsageError(f"{option} {text}: not KEY=SIZE with a size above zero; e.g. {example}") from None
+
+
 def numbers(text, kind=number):
     """Numbers ``v1,v2,…``, for an option."""
     return tuple(kind(part) for part in text.split(","))

@@ -7,8 +7,6 @@ lists of points.
 
 import sys
 
-import numpy as np
-
 from meshwright.base.errors import UsageError
 from meshwright.base.files import write_bytes, write_json
 from meshwright.commands import options as common
@@ -17,7 +15,7 @@ from meshwright.rexs.measurements import with_points
 from meshwright.rexs.origin import origin_of
 from meshwright.rexs.report import lines
 from meshwright.rexs.writing import file_of
-from meshwright.shop.tables import read_csv
+from meshwright.shop.tables import read_measured
 
 NAME = "export"
 
@@ -58,9 +56,4 @@ def _measured(options):
     """The measured points that are to be added, None if none are."""
     if (options.measured is None) != (options.member is None):
         raise UsageError("--measured and --member belong together: whose deviations are they? give both or neither")
-    if options.measured is None:
-        return None
-    points, _ = read_csv(options.measured)
-    if not np.isfinite(points.deviations).any():
-        raise UsageError(f"{options.measured}: deviation_um is empty in every line; fill in what was measured")
-    return points
+    return None if options.measured is None else read_measured(options.measured)

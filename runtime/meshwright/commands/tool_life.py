@@ -51,7 +51,8 @@ def add_arguments(parser):
 
 def run(options):
     drive = common.drive_of(options)
-    errors = dict(_error(text) for text in options.error)
+    example = "misalignment.vertical_deg=0.02"
+    errors = dict(common.key_and_size("--error", text, example) for text in options.error)
     if len(errors) > MOST_ERRORS:
         raise UsageError(f"--error: {len(errors)} errors; {MOST_ERRORS} at most, as every sign of each is combined")
     life = ToolLife.of(drive, errors)
@@ -79,17 +80,6 @@ def _computed(state, step):
     step(f"{state.ground_off:g} mm ground off")
     _ = state.error, state.backlash, state.pattern, state.edges
     return state
-
-
-def _error(text):
-    key, _, size = text.partition("=")
-    try:
-        value = float(size)
-    except ValueError:
-        value = math.nan
-    if not (math.isfinite(value) and value > 0.0):
-        raise UsageError(f"--error {text}: not KEY=SIZE with a size above zero; e.g. misalignment.vertical_deg=0.02")
-    return key.strip(), value
 
 
 def _bounds(options):

@@ -78,6 +78,14 @@ def read_csv(path):
     return _points(columns), remarks
 
 
+def read_measured(path):
+    """:class:`Points` of a CSV file, some of which are measured."""
+    points, _ = read_csv(path)
+    if not np.isfinite(points.deviations).any():
+        raise UsageError(f"{path}: deviation_um is empty in every line; fill in what was measured")
+    return points
+
+
 def _text(path):
     try:
         with open(path, "rb") as stream:
