@@ -81,25 +81,13 @@ def refuted_circle(forger):
     forger.source("recess-action/eq-12")["reading"] = {"as printed": ["cos(a)**2 + sin(a)**2 = 1"]}
 
 
-def invented_point_value(forger):
-    """A counterexample that sets pi to 3."""
-    certificate = forger.one(object="certificate", kind="exact_point")
-    certificate["point"]["symbols"]["pi"] = "3"
-
-
-def sign_of_two(forger):
-    certificate = next(c for c in forger.objects if c.get("kind") == "ring_nf" and "s" in c["point"]["symbols"])
-    certificate["point"]["symbols"]["s"] = "2"
+def proof_with(forger, what):
+    return next(c for c in forger.objects if c.get("kind") == "ring_nf" and what(c))
 
 
 def worked_numbers(forger):
-    certificate = next(c for c in forger.objects if c.get("kind") == "ring_nf" and c["lhs"][0] != "0")
+    certificate = proof_with(forger, lambda c: c["lhs"][0] != "0")
     certificate["lhs"] = certificate["rhs"] = ["7" for _ in certificate["lhs"]]
-
-
-def understated_degree(forger):
-    certificate = next(c for c in forger.objects if c.get("kind") == "ring_nf" and c["degree"] > 1)
-    certificate["degree"] = 1
 
 
 # ---- printed numbers -------------------------------------------------------------------------------------------------
@@ -227,10 +215,7 @@ FORGED = [
     (enormous_degree, "degree|is not"),
     (leading_zero, "canonical form"),
     (refuted_circle, "agree at the counterexample"),
-    (invented_point_value, "one value twice"),
-    (sign_of_two, "neither"),
     (worked_numbers, "recorded numbers"),
-    (understated_degree, "recorded degree"),
     (misprint_called_proved, "half a unit"),
     (wide_pi, "half a unit"),
     (number_with_exponent, "not a decimal"),
@@ -279,6 +264,15 @@ IN_ONE_STEP = {
     ),
     "symbol named as root": (
         lambda f: f.proof(["sqrt", "x"], "sqrt0", roots=[root("x")], text="sqrt(x) = sqrt0"), "no name of a symbol"
+    ),
+    "pi that is 3": (
+        lambda f: f.one(object="certificate", kind="exact_point")["point"]["symbols"].update(pi="3"), "one value twice"
+    ),
+    "sign of two": (
+        lambda f: proof_with(f, lambda c: "s" in c["point"]["symbols"])["point"]["symbols"].update(s="2"), "neither"
+    ),
+    "understated degree": (
+        lambda f: proof_with(f, lambda c: c["degree"] > 1).update(degree=1), "recorded degree"
     ),
     "sign that is an angle": (
         lambda f: f.equation("recess-action/eq-16/as printed/1").update(
