@@ -376,6 +376,7 @@ class _MeanPoint:
             message="the settings of the gear cut no point at mid face and mid height",
             keys=_places(m.cradle_angle, m.radial, m.point_radius, m.sliding_base, m.outer_cone_distance),
             homotopy=True,
+            start=True,
             definitions=self.definitions,
         )
 
@@ -394,6 +395,7 @@ class _MeanPoint:
             message="the gear's mean point meets the pinion at no angle",
             keys=_places(k.offset, k.shaft_angle, GEAR.outer_cone_distance, GEAR.cradle_angle),
             fixed={phi_1: sp.Integer(0)},
+            start=True,
             definitions=self.definitions,
         )
 
@@ -411,6 +413,7 @@ class _MeanPoint:
             message="the settings of the pinion cut no point where the gear's mean point meets it",
             keys=_places(m.cradle_angle, m.radial, m.point_radius, m.sliding_base, m.blank_offset),
             homotopy=True,
+            start=True,
             definitions=self.definitions,
         )
 

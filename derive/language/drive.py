@@ -126,13 +126,14 @@ PATH = Quantity("path", "", "share of the way of a continuation")
 class DesignSystem:
     """Equations that a design solves once, before anything else; their solution fills in open parameters.
 
-    Systems run in order after the rules, and the rules run again after each, so that what follows from a solution
-    is known to the next. ``residual`` may contain :data:`PATH`: the ``guess`` solves it (nearly) at 0 and the
-    solution is followed to 1. ``regular``, where given, is a surface and a sign: sign × its singular function must
-    stay positive all along. A design for which this fails is illegal for the reason ``message``, in which ``keys``
-    meet. ``fills`` are parameters and their values; a design that gives them all skips the system. ``fixed``
-    replaces symbols by constants throughout. With ``homotopy`` any guess will do that leads there: what the residual is
-    at the guess falls to zero along the path.
+    Systems run in order after the rules, and the rules run again after each, so that what follows from a solution is
+    known to the next. ``residual`` may contain :data:`PATH`: the ``guess`` solves it (nearly) at 0 and the solution is
+    followed to 1. ``regular``, where given, is a surface and a sign: sign × its singular function must stay positive
+    all along. A design for which this fails is illegal for the reason ``message``, in which ``keys`` meet. ``fills``
+    are parameters and their values; a design that gives them all skips the system. ``fixed`` replaces symbols by
+    constants throughout. With ``homotopy`` any guess will do that leads there: what the residual is at the guess falls
+    to zero along the path. ``start``: the solution only begins the search for contact, and where there is none the
+    place nearest to one serves.
     """
 
     name: str
@@ -145,6 +146,7 @@ class DesignSystem:
     fixed: Values = field(default_factory=dict[Quantity, Number])
     regular: tuple[Surface, Number] | None = None
     homotopy: bool = False
+    start: bool = False
     definitions: Definitions = field(default_factory=Definitions)
 
     def __post_init__(self) -> None:
