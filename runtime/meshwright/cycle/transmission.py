@@ -103,11 +103,19 @@ def _of_extremes(mesh):
     low, high = sorted((mesh.window.begin.angle, mesh.window.end.angle))
     inner = INNER * (high - low)
     pair = mesh.errors(np.linspace(low + inner, high - inner, PAIR_SAMPLES))
-    found = envelopes(mesh, low + inner + np.arange(PITCH_SAMPLES) / PITCH_SAMPLES * mesh.drive.pitch())
-    transmitted, other = (found.upper, found.lower) if mesh.sense > 0 else (found.lower, found.upper)
-    on_edge = _extreme_at_an_end(mesh, pair)
-    spreads = _range(pair), _range(transmitted), rigid, _range(other)
-    return TransmissionError(mesh.envelope, *spreads, (), math.nan, on_edge)
+    transmitted, other = _over_a_pitch(mesh)
+    spreads = _range(pair), transmitted, rigid, other
+    return TransmissionError(mesh.envelope, *spreads, (), math.nan, _extreme_at_an_end(mesh, pair))
+
+
+def _over_a_pitch(mesh):
+    """Peak to peak of the transmitted envelope and of the other one, rad, of a window with both ends and no path."""
+    if mesh.constant and mesh.contact_ratio >= 1.0:
+        return 0.0, 0.0
+    low, high = sorted((mesh.window.begin.angle, mesh.window.end.angle))
+    first = low + INNER * (high - low)
+    found = envelopes(mesh, first + np.arange(PITCH_SAMPLES) / PITCH_SAMPLES * mesh.drive.pitch())
+    return tuple(_range(errors) for errors in (found.upper, found.lower)[:: int(mesh.sense)])
 
 
 def _range(errors):
@@ -144,6 +152,8 @@ def peak_to_peak(mesh):
     """Peak to peak of the transmitted envelope alone, rad; NaN for a window without both ends."""
     if not mesh.window.complete:
         return math.nan
+    if mesh.window.path is None:
+        return _over_a_pitch(mesh)[0]
     ends = tuple(sorted((mesh.window.begin.angle, mesh.window.end.angle)))
     return _ranges(mesh, ends, _vertex(mesh), _transfers(mesh))[0 if mesh.sense > 0 else 1]
 
