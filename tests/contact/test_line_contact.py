@@ -9,6 +9,7 @@ import pytest
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.contact.contact_line import contact_line
+from meshwright.contact.results import ARCSEC
 
 SPUR = {
     "drive": "spherical",
@@ -105,3 +106,16 @@ def test_a_worm_and_a_wheel_cut_by_its_equal_touch_along_a_curve_from_face_to_fa
     assert [curvature for _, curvature in order] == pytest.approx([0.0462716, 0.0303573], abs=1e-7)
     assert line["length_mm"] == pytest.approx(24.57378, abs=2e-5)
     assert all((end["member"], end["limits"]) == ("wheel", ["face"]) for end in line["ends"])
+
+
+@pytest.mark.parametrize("name", ["bevel-crown-pair", "bevel-face-hobbed-crown-pair"])
+def test_gears_cut_by_one_crown_gear_touch_along_lines_from_end_to_end_of_their_window(name):
+    """Their mean contact may lie far from the pinion's angle 0; past the ends of the window no line is left."""
+    drive = Drive.load(name)
+    window = drive.window
+    low, high = sorted((window.begin.angle, window.end.angle))
+    assert window.complete and window.status == "line_contact" and low < drive.design.reference_angle < high
+    inner = 1e-4 * (high - low)
+    inside = drive.tca(np.linspace(low + inner, high - inner, 9))
+    assert set(inside.status) == {"line_contact"} and np.abs(inside.error).max() < 1e-8 * ARCSEC
+    assert "line_contact" not in drive.tca(np.array([low - inner, high + inner])).status

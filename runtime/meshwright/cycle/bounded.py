@@ -23,7 +23,7 @@ def bounded(drive, result):
     meet, or the search does not come to an extreme, so do the others.
     """
     with np.errstate(invalid="ignore"):
-        flat = result.curvatures[:, 0] <= NEARLY_FLAT * result.curvatures[:, 1]
+        flat = np.abs(result.curvatures[:, 0]) <= NEARLY_FLAT * np.abs(result.curvatures[:, 1])
     asked = np.flatnonzero(~result.solved | flat)
     if not len(asked):
         return result
@@ -58,7 +58,8 @@ def _points(drive, result, rows, kinds, along, found):
     mirrored = [line and line.mirrored(mirror) for line in along]
     lines = [mine or there for mine, there in zip(mirrored, found.lines, strict=True)]
     newton = np.array([line is not None for line in along], dtype=bool)
-    error = np.where(newton, result.error[rows], found.errors)
+    on_line = mirror.sign * np.array([np.nan if line is None else line.middle.wheel_turn for line in along])
+    error = np.where(newton, on_line, found.errors)
     single = ~tangent & ~newton & np.array([kind not in (None, "line") for kind in kinds], dtype=bool)
     status = ["no_contact" if kind is None else STATUSES[kind] for kind in kinds]
     messages = [status_text(word) for word in status]

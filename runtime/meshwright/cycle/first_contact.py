@@ -16,6 +16,7 @@ import numpy as np
 from meshwright.base.library import ffi, library, pointer
 from meshwright.base.plain import finite_or_none
 from meshwright.contact.placement import placed, placements_at
+from meshwright.contact.results import SOLVED
 from meshwright.flank.bounds import OPEN
 from meshwright.flank.mesh import mesh
 from meshwright.flank.model import DriveModel
@@ -37,6 +38,10 @@ STARTS = (0, 1, 2, 4, 8, 16, 32)
 
 #: Searches that come to the angle and find places, but no extreme of them, or no place, before it is given up.
 SEARCHES = 2
+
+#: What stands for the ridge as a start; over how many pitches it is followed from where it is known.
+RIDGE = object()
+RIDGE_REACH = 0.5
 
 #: What stands for a first contact where the flanks meet, but a search for their extreme ends nowhere; and where flanks
 #: meet that nothing ends.
@@ -236,32 +241,38 @@ def _event(bodies, member, limit):
 @dataclass(frozen=True)
 class SearchedFlank:
     """A mesh over the wheel's bounded flank: a ``table`` for C, of arrays that are ``kept`` with it. ``solutions``
-    (P, nx) of contacts in the middle at ``angles`` (P,), right hand; ``found``: first contacts by angle.
+    (P, nx) of contacts in the middle, or the places from which they are sought, at ``angles`` (P,), right hand;
+    ``pointless``: none of them is a contact in a point; ``found``: first contacts by angle, ``ridges``: depths and
+    deepest places of the ridge of the wheel's turn.
     """
 
     table: object
     kept: tuple
     angles: np.ndarray
     solutions: np.ndarray
+    pointless: bool
     found: dict = field(default_factory=dict, repr=False)
+    ridges: dict = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(cls, drive):
         """Of the flank about the contacts in the middle or, where there is none, about the places from which contact is
         sought; None if no part of it lies within its limits.
         """
-        here = np.linspace(-PITCHES, PITCHES, ANGLES) * drive.pitch()
-        known = drive.trace(here)[0]
-        solved = np.isfinite(known).all(axis=1)
-        for used in (known[solved], start_values(drive, here)):
-            used = used[np.isfinite(used).all(axis=1)]
-            found = _triangulated(drive, used) if len(used) else None
+        here = drive.design.reference_angle + np.linspace(-PITCHES, PITCHES, ANGLES) * drive.pitch()
+        known, words = drive.trace(here)
+        sought = start_values(drive, here)
+        for used in (known, sought):
+            solved = np.isfinite(used).all(axis=1)
+            found = _triangulated(drive, used[solved]) if solved.any() else None
             if found is not None:
-                return cls._of(found, here[solved], known[solved])
+                use = known if np.isfinite(known).any() else sought
+                solved = np.isfinite(use).all(axis=1)
+                return cls._of(found, here[solved], use[solved], not set(SOLVED) & set(words))
         return None
 
     @classmethod
-    def _of(cls, found, angles, solutions):
+    def _of(cls, found, angles, solutions, pointless):
         """Of the region, its triangles and the natural sizes of the pinion's parameters."""
         whole, triangles, sizes = found
         names = np.array(whole.limits.names)
@@ -279,7 +290,7 @@ class SearchedFlank:
         for name, view in zip(names, views, strict=True):
             setattr(table, name, view)
         table.span = whole.chart.free
-        return cls(table, (kept, views), angles, solutions)
+        return cls(table, (kept, views), angles, solutions, pointless)
 
 
 def _triangulated(drive, unknowns):
@@ -396,12 +407,22 @@ class Search:
         return [known[float(angle)] for angle in angles]
 
     def _one(self, angle, until):
-        """``mw_first`` at one angle: from a contact known there, the start values, then other contacts."""
+        """``mw_first`` at one angle: from a contact known there, the start values, other contacts and, where that is
+        known or no contact is one in a point, the ridge.
+        """
         order = np.argsort(np.abs(self.solved_at - angle), kind="stable")
         starts = [(self.solved_at[k], self.solutions[k]) for k in order[[i for i in STARTS if i < len(order)]]]
         starts.insert(int(bool(starts) and starts[0][0] == angle), (angle, None))
         ended, empty = 0, 0
-        for known_at, x in starts:
+        ridge = [(angle, RIDGE)] if self.flank.pointless or self.flank.ridges else []
+        for known_at, x in (*starts, *ridge):
+            if x is RIDGE:
+                depth, place = self._ridge(float(angle))
+                if math.isnan(depth):
+                    break
+                x = _unknowns(self.drive, place)
+            elif SEARCHES in (ended, empty):
+                continue
             found = self._from(known_at, start_values(self.drive, [angle])[0] if x is None else x, angle, until)
             if found.status >= 0:
                 return found
@@ -411,8 +432,6 @@ class Search:
             if nowhere and found.met:
                 return None
             ended, empty = ended + (found.met > 0), empty + nowhere
-            if SEARCHES in (ended, empty):
-                break
         return UNKNOWN if ended else None
 
     def _from(self, known_at, x, angle, until):
@@ -478,15 +497,42 @@ class Search:
         """How deep inside the limits the ridge of the wheel's turn comes at an angle, in the unit of the limit that it
         is nearest to, and (member, event) of that one and of another as near; NaN where no ridge is found.
         """
-        depth, found = ffi.new("double *"), ffi.new("mw_first *")
-        pinion, wheel = self._way(angle, 0.0)
-        library().mw_first_deepest(
-            *self._model, pointer(pinion), pointer(wheel), self.turn,
-            self.sense, self._place(start_values(self.drive, [angle])[0]), STEP, depth, found,
-        )  # fmt: skip
+        depth, found = self._ridge(float(angle))
         bodies = self.drive.design.description["bodies"]
         held = [(found.member[k], found.limit[k]) for k in (0, 1) if found.limit[k] >= 0]
-        return float(depth[0]), tuple((bodies[m]["name"], _event(bodies, m, limit)) for m, limit in held)
+        return depth, tuple((bodies[m]["name"], _event(bodies, m, limit)) for m, limit in held)
+
+    def _ridge(self, angle):
+        """Depth and place of the ridge at an angle: from the start values there or, where they do not lead to it, from
+        the nearest angle at which it is known.
+        """
+        known = self.flank.ridges
+        for at in () if angle in known else (self.drive.design.reference_angle, angle):
+            if at not in known:
+                depth, found = self._deepest(at, self._place(start_values(self.drive, [at])[0]))
+                if not math.isnan(depth):
+                    known[at] = depth, found
+        if angle in known or not known:
+            return known.get(angle, (math.nan, ffi.new("mw_first *", {"limit": (-1, -1)})))
+        near = min(known, key=lambda at: abs(at - angle))
+        share, (depth, found) = abs(angle - near) / self.drive.pitch(), known[near]
+        if share > RIDGE_REACH:
+            return math.nan, found
+        for at in np.linspace(near, angle, 1 + math.ceil(share * STEPS_PER_PITCH))[1:]:
+            depth, found = self._deepest(at, found)
+            if math.isnan(depth):
+                return depth, found
+        known[angle] = depth, found
+        return depth, found
+
+    def _deepest(self, angle, start):
+        """Depth and place of ``mw_first_deepest`` from another place at an angle."""
+        depth, found = ffi.new("double *", math.nan), ffi.new("mw_first *")
+        pinion, wheel = self._way(angle, 0.0)
+        library().mw_first_deepest(
+            *self._model, pointer(pinion), pointer(wheel), self.turn, self.sense, start, STEP, depth, found
+        )
+        return float(depth[0]), found
 
     def _place(self, x):
         """Unknowns (nx,) as a place for C."""
