@@ -25,6 +25,7 @@ from derive.language.contact import contact
 from derive.language.definitions import Definitions
 from derive.language.drive import (
     PATH,
+    TOE_AND_HEEL,
     Body,
     Count,
     DesignSystem,
@@ -291,7 +292,7 @@ def _margins(tooth, point):
     outer, face = m.outer_cone_distance.symbol, m.face_width.symbol
     return (
         Margin("off_tip", "tip", below_tip),
-        Margin("off_face", "face", (outer - along) * (along - outer + face) / face),
+        Margin("off_face", "face", (outer - along) * (along - outer + face) / face, ends=TOE_AND_HEEL),
         Margin("off_root", "root", tooth.arc - tooth.blade.junction, Role.JUNCTION, joins="fillet"),
     )
 

@@ -206,7 +206,10 @@ def _quantities(drive):
 
 
 def _margins(margins):
-    return [{"flag": m.flag, "event": m.event, "role": m.role.value, "joins": m.joins} for m in margins]
+    return [
+        {"flag": m.flag, "event": m.event, "role": m.role.value, "joins": m.joins, "ends": list(m.ends)}
+        for m in margins
+    ]
 
 
 def _parameter(drive, p):

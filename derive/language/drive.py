@@ -42,6 +42,10 @@ class Role(Enum):
     SPURIOUS_SHEET = "spurious_sheet"
 
 
+#: Ends of a face that lie nearer to the axis and farther from it.
+TOE_AND_HEEL = ("toe", "heel")
+
+
 @dataclass(frozen=True)
 class Margin:
     """A limit of validity: where ``positive`` < 0 the point carries ``flag``.
@@ -51,7 +55,9 @@ class Margin:
     that ends here says what ended it. A ``relative`` margin is divided by its value at the body's regular
     reference point, for functions whose sign has no meaning of its own. With ``along``, a surface parameter, the
     limit is where ``positive`` stops growing along it. ``role`` is what ends the surface here, by default what the
-    event says; ``joins`` names the region of the same member that goes on beyond the limit.
+    event says; ``joins`` names the region of the same member that goes on beyond the limit. ``ends`` are the words for
+    the two ends of a face, first the one nearer to the origin of the body, such as toe and heel; where none are given,
+    they are the left face and the right one, at larger z.
     """
 
     flag: str
@@ -61,6 +67,7 @@ class Margin:
     relative: bool = False
     along: Quantity | None = None
     joins: str = ""
+    ends: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.role is None and self.event in {role.value for role in Role}:

@@ -241,7 +241,7 @@ def test_a_size_of_ones_own_that_nothing_follows_is_said(tmp_path, monkeypatch, 
     assert "design.offset_mm = 20: as given; no other size follows it" in shown and "careful: edge_contact" in shown
     assert "without design.offset_mm = 20 the flanks touch" in shown and "bevel-hypoid" in shown
     assert main(["tca", "b.toml", "--phi-deg", "0"]) == 0
-    assert "edge_contact (face of the pinion)" in capsys.readouterr().out
+    assert "edge_contact (toe of the pinion)" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,11 @@ import pytest
 
 from meshwright import Drive
 from meshwright.base.errors import DesignError
+from meshwright.contact import analysis
 from meshwright.contact.results import ARCSEC, TOUCHING
 from meshwright.cycle.first_contact import STATUSES
+from meshwright.cycle.pairs import Mesh
+from meshwright.sweep import samples
 from tests.cycle.test_plain_pairs import random_pair
 from tests.quick import full
 
@@ -51,11 +54,36 @@ def parts_agree(drive, rng):
         elif not result.flags[k]:
             assert not first.overlaps(result.error)[k] < 0.0
         assert (point["contact_line"] is not None) >= (status == "line_contact")
-    window = drive.window
-    if window.complete:
-        (middle,) = drive.first_contact([0.5 * (window.begin.angle + window.end.angle)]).kinds
-        assert window.status in TOUCHING and middle is not None
-    return result
+    sweep_agrees(drive, angles, result)
+    ratio_agrees(drive, angles, result, first)
+
+
+def sweep_agrees(drive, angles, result):
+    """A sweep with the design as its one sample."""
+    known = [p["key"] for p in drive.design.description["parameters"] if p["table"] == "misalignment"]
+    given = drive.design.given().get("misalignment", {})
+    values = np.array([[given.get(key) or 0.0 for key in known]])
+    found = samples.solve(drive, [f"misalignment.{key}" for key in known], values, angles)
+    words = analysis.statuses()
+    assert [words[code] for code in found.status[0].tolist()] == list(result.status), drive.design.given()
+    assert found.error[0] / ARCSEC == pytest.approx(result.error / ARCSEC, abs=1e-6, nan_ok=True)
+
+
+def ratio_agrees(drive, angles, result, first):
+    """Between the ends that `ratio` states the pair touches, with the error that it takes for that."""
+    mesh = Mesh.of(drive)
+    if not mesh.window.complete:
+        return
+    assert mesh.status in TOUCHING and drive.first_contact([mesh.mirror * mesh.middle]).kinds[0] is not None
+    low, high = sorted((mesh.window.begin.angle, mesh.window.end.angle))
+    inside = (low < angles) & (angles < high)
+    errors = mesh.errors(angles)
+    for k in np.flatnonzero(inside):
+        assert result.status[k] in TOUCHING, (drive.design.given(), angles[k])
+        of_path = result.status[k] == "converged" and mesh.path is not None
+        expected = result.error[k] if of_path else first.errors[k]
+        if mesh.path is None or of_path:
+            assert errors[k] / ARCSEC == pytest.approx(expected / ARCSEC, abs=1e-6), (drive.design.given(), angles[k])
 
 
 @pytest.mark.parametrize("seed", [5])

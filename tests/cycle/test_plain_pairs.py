@@ -6,12 +6,17 @@ given.
 """
 
 import math
+import re
 
 import numpy as np
 import pytest
 
 from meshwright import Drive
+from meshwright.cli import main
+from meshwright.contact import analysis
 from meshwright.contact.results import ARCSEC
+from meshwright.design import design as designs
+from meshwright.sweep import samples
 from tests.independent.involute_delta import Gear, Pair, involute
 from tests.quick import full
 
@@ -250,3 +255,64 @@ def test_many_plain_pairs_touch_where_explicit_involutes_do(part):
 
 def test_working_involute():
     assert involute(math.radians(20.0)) == pytest.approx(0.014904384, abs=1e-9)
+
+
+@pytest.mark.parametrize("turned", [1.0, -1.0])
+def test_words_name_the_end_of_the_face_that_touches_and_how_far_the_flanks_are_out_of_line(turned, capsys, tmp_path):
+    """Inclined by Δv, the gap rises by b Δv sin α_w over the face."""
+    path = tmp_path / "c14.toml"
+    path.write_text(designs.toml_text(c14({"vertical_deg": 0.005 * turned}).design.given()))
+    assert main(["tca", str(path), "--phi-deg=0"]) == 0
+    said = capsys.readouterr().out
+    point = point_of(c14({"vertical_deg": 0.005 * turned}), 0.0)
+    end = "right" if point["contact_point_mm"][2] > 0.0 else "left"
+    assert f"edge_contact ({end} face of the wheel)" in said
+    working = math.acos(45.0 * 2 * math.cos(math.radians(20.0)) / c14().design.value("center_distance_mm"))
+    rise = 1000.0 * 14.0 * math.radians(0.005) * math.sin(working)
+    assert float(re.search(r"out of line by ([\d.]+) µm", said)[1]) == pytest.approx(rise, rel=5e-3)
+    assert "vertical_deg = " in said
+
+
+@pytest.mark.parametrize(("axial", "degrees", "end"), [(0.05, 2.0, "toe"), (-0.05, -10.0, "heel")])
+def test_bevel_gears_touch_at_toe_or_heel(axial, degrees, end):
+    drive = Drive.load("bevel-crown-pair").with_(misalignment={"pinion_axial_mm": axial})
+    found = drive.first_contact(np.radians([degrees]))
+    assert found.kinds == ("edge",) and end in found.edges[0]
+    middle = Drive.load("bevel-crown-pair").first_contact([0.0])
+    assert (np.linalg.norm(found.points) < np.linalg.norm(middle.points)) == (end == "toe")
+
+
+def test_a_sweep_and_an_analysis_call_the_same_contacts_lines_edges_and_points():
+    """Crowning within 1e-9 mm is none; the assembly decides whether a line, an edge or a point touches."""
+    angles = np.radians([-10.0, 0.0, 5.0, 20.0, 35.0])
+    nominal = c14(pinion_lead_crowning_um=0.0, wheel_lead_slope_um=0.0)
+    keys = ("design.pinion_lead_crowning_um", "misalignment.vertical_deg")
+    values = np.array([[0.0, 0.0], [1e-6, 0.0], [1.0, 0.0], [0.0, 1e-3], [1e-6, 0.0]])
+    found = samples.solve(nominal, keys, values, angles)
+    for row, (crowning, inclined) in enumerate(values.tolist()):
+        alone = c14({"vertical_deg": inclined}, pinion_lead_crowning_um=crowning).tca(angles)
+        assert [analysis.statuses()[code] for code in found.status[row].tolist()] == list(alone.status)
+        assert found.error[row] == pytest.approx(alone.error, abs=1e-9 * ARCSEC, nan_ok=True)
+    assert set(found.status[1].tolist()) == set(found.status[0].tolist())
+
+
+def test_where_tangencies_interfere_a_ratio_is_that_of_the_edges_that_touch():
+    """A wheel cut by a hob of the worm's size that goes deeper than the worm: its face touches at either end."""
+    deep = {
+        "drive": "cylindrical-worm", "flank": "right",
+        "design": {
+            "worm_profile": "ZI", "axial_module_mm": 4.0, "worm_threads": 2, "wheel_teeth": 40, "shaft_angle_deg": 90.0,
+            "worm_pitch_radius_mm": 20.0, "pressure_angle_deg": 20.0, "center_distance_mm": 100.0, "hob_threads": 2,
+            "hob_pitch_radius_mm": 20.0, "cutting_center_distance_mm": 99.883, "cutting_shaft_angle_deg": 89.9352,
+        },
+        "blank": {
+            "worm_tip_radius_mm": 24.0, "worm_root_radius_mm": 15.2, "wheel_throat_radius_mm": 84.0,
+            "wheel_tip_radius_mm": 86.0, "wheel_face_width_mm": 24.1, "hob_tip_addendum_mm": 4.8,
+        },
+    }  # fmt: skip
+    drive = Drive.from_tables(deep)
+    found = drive.contact_ratio()
+    assert found.impossible == ("interference",) and found.status == "edge_contact"
+    first = drive.first_contact([found.mesh.middle])
+    (pair,) = [p for p in found.mesh.pairs(found.mesh.middle) if p.number == 0]
+    assert pair.error == pytest.approx(first.errors[0], abs=1e-9 * ARCSEC)

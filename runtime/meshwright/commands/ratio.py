@@ -167,12 +167,14 @@ def _orders(mesh):
 
 def _page(drive, found, contents):
     lines = [f"{drive.design.description['title']}, {drive.design.tables['name'] or 'design'}"]
-    if found.mesh.window.path is None and found.status in TOUCHING:
+    if found.mesh.path is None and found.status in TOUCHING:
         lines.append(status_text(found.status))
     if why := why_open(found.mesh):
         lines.append(f"no complete window of contact: {why}")
     if found.impossible:
-        lines.append(f"bodies cannot make this contact everywhere from begin to end: {', '.join(found.impossible)}")
+        instead = "; the figures are of where the flanks touch first" if found.mesh.path is None else ""
+        flags = ", ".join(found.impossible)
+        lines.append(f"bodies cannot make this contact everywhere from begin to end: {flags}{instead}")
     lines += [f"{name:<34} {', '.join(filter(None, values))}" for name, *values in _rows(found, contents)]
     lines += _certified(contents.get("certificate"))
     if contents["room"]:

@@ -4,6 +4,7 @@ Where the blank bounds the flanks, also where the two flanks touch first: at tha
 a corner, each of which is a result. Exit status 1 if the flanks do not touch at an angle, or as bodies cannot.
 """
 
+import math
 import sys
 
 import numpy as np
@@ -15,6 +16,7 @@ from meshwright.commands.progress import progress
 from meshwright.contact.flags import not_first
 from meshwright.contact.friction import efficiency
 from meshwright.contact.velocities import velocities
+from meshwright.cycle.first_contact import Search
 
 #: More directions than this are taken for a mistake.
 MOST_DIRECTIONS = 36_000
@@ -164,6 +166,8 @@ def _flat(point):
             continue
         elif key == "other_contacts":
             flat[key] = len(value)
+        elif key == "edges":
+            flat[key] = ", ".join(value)
         elif key in ("flags", "limits", "impossible") and isinstance(value, list):
             flat[key] = " ".join(value)
         elif isinstance(value, list):
@@ -199,8 +203,24 @@ def _not_aligned(drive, points):
         return ""
     errors = {key: value for key, value in drive.design.given().get("misalignment", {}).items() if value}
     given = ", ".join(f"{key} = {value:g}" for key, value in errors.items())
-    where = f"on an edge or at a corner at {count} of {len(points)} angles"
-    return f"{where}" + (f"; errors of the assembly: {given}\n" if given else "; the assembly has no errors\n")
+    said = [f"on an edge or at a corner at {count} of {len(points)} angles"]
+    if math.isfinite(rise := _out_of_line(drive, points)):
+        said.append(f"from one end of the contact line to the other the flanks are out of line by {1000 * rise:.3g} µm")
+    said.append(f"errors of the assembly: {given}" if given else "the assembly has no errors")
+    return "; ".join(said) + "\n"
+
+
+def _out_of_line(drive, points):
+    """The most by which flanks that touch on edges stand apart along what would be their line of contact, mm; NaN where
+    they have none, or touch in points.
+    """
+    search, _ = Search.of(drive)
+    angles = np.radians([point["pinion_angle_deg"] for point in points if point["status"] in ON_EDGES])
+    own = drive.design.mirror.sign * angles
+    if search is None or not search.flank.pointless:
+        return math.nan
+    rises = [search.rise(*at) for at in zip(own, search.at(own), strict=True)]
+    return max((rise for rise in rises if math.isfinite(rise)), default=math.nan)
 
 
 def _remarks(point):
@@ -212,8 +232,7 @@ def _touching(point):
     found = point["first_contact"]
     if point["status"] not in ON_EDGES or found is None:
         return ()
-    whose = "both" if found["member"] == "both" else f"the {found['member']}"
-    return (f"({' and '.join(found['limits'])} of {whose})",)
+    return (f"({' on '.join(found['edges']) if found['kind'] == 'edge' else ' and '.join(found['edges'])})",)
 
 
 def _efficiency(point):

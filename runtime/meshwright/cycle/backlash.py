@@ -56,14 +56,14 @@ def _both_flanks(drive):
 
 def _samples(*meshes):
     """Samples of one pitch: fewer where each takes searches, one where all are alike."""
-    if all(mesh.contact is mesh.window.path for mesh in meshes):
+    if all(mesh.path is not None for mesh in meshes):
         return SAMPLES
     return 1 if all(mesh.constant for mesh in meshes) else SEARCHED
 
 
 def _stops(mesh, angles):
     """Wheel angles at which the flanks touch, of the pair that stops the wheel: (N,)."""
-    if mesh.contact is not mesh.window.path and mesh.rigid is not None:
+    if mesh.path is None and mesh.rigid is not None:
         return mesh.drive.ratio * angles + mesh.rigid.transmitted(angles)
     found = envelopes(mesh, angles)
     return mesh.drive.ratio * angles + (found.upper if mesh.sense > 0 else found.lower)

@@ -10,7 +10,7 @@ import numpy as np
 
 from meshwright.contact.analysis import at_solutions, status_text
 from meshwright.contact.placement import inverse, placed
-from meshwright.cycle.first_contact import OVERLAP, STATUSES, Search
+from meshwright.cycle.first_contact import FLAT, OVERLAP, STATUSES, Search
 
 #: A smaller principal curvature of the gap below this share of the larger one may be that of a line.
 NEARLY_FLAT = 1e-6
@@ -33,7 +33,9 @@ def bounded(drive, result):
         return result
     known = np.isfinite(result.solutions).all(axis=1)
     lines = {int(k): search.of_solution(own[k], result.solutions[k]) for k in asked if known[k]}
-    rows = np.array([k for k in asked if lines.get(int(k)) or not result.solved[k]], dtype=int)
+    with np.errstate(invalid="ignore"):
+        isolated = np.abs(result.curvatures[:, 0]) * search.flank.extent**2 / 8.0 > FLAT
+    rows = np.array([k for k in asked if lines.get(int(k)) or not (result.solved[k] and isolated[k])], dtype=int)
     if not len(rows):
         return result
     found = search.first(result.angles[rows])

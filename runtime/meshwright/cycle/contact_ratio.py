@@ -18,7 +18,7 @@ class ContactRatio:
     drive jams; ``backlash_lengths``: on the working pitch circles and along the normal, mm.
     ``transverse_contact_ratio`` and ``overlap_ratio``: of flanks that touch along lines, on parallel axes. ``mesh``
     answers for any angle which pairs touch. ``impossible`` are the flags of points between begin and end that bodies
-    cannot make: the figures are then those of the equations alone.
+    cannot make: the figures are then those of the flanks' extremes or, without a blank, of the equations alone.
     """
 
     begin: Event
@@ -43,7 +43,7 @@ def contact_ratio(drive):
     return ContactRatio(
         begin=window.begin,
         end=window.end,
-        status=window.status,
+        status=mesh.status,
         contact_ratio=mesh.contact_ratio,
         average_over_pitch=mesh.average_over_pitch(),
         average_begin_to_end=mesh.average_begin_to_end(),

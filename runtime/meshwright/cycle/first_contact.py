@@ -83,7 +83,8 @@ class FirstContacts:
     """First contacts at N pinion ``angles`` (rad), with the design's hand; NaN and None where there is none.
 
     ``kinds``: "tangency", "line", "edge" or "corner"; ``members``: whose limit holds the place, "both" for two edges
-    that cross, None for a tangency and a line; ``limits``: the events, and ``holders`` the members whose they are.
+    that cross, None for a tangency and a line; ``limits``: the events, ``holders`` the members whose they are, and
+    ``edges`` their words, which tell the ends of a face: left and right (at larger z of its member), or toe and heel.
     ``errors`` (N,): transmission error, rad. ``points``, ``normals`` (N, 3) (out of the pinion's flank), fixed frame,
     of a line those in its middle; ``levers`` (N,), mm of normal approach per rad of the wheel; ``solutions`` (N, nx),
     the unknowns of contact there, right hand, which solve its equations at a tangency alone. ``lines``: the
@@ -98,6 +99,7 @@ class FirstContacts:
     members: tuple[str | None, ...]
     limits: tuple[tuple[str, ...], ...]
     holders: tuple[tuple[str, ...], ...]
+    edges: tuple[tuple[str, ...], ...]
     errors: np.ndarray
     points: np.ndarray
     normals: np.ndarray
@@ -120,9 +122,9 @@ class FirstContacts:
         if self.kinds[k] in (None, "tangency", "line"):
             return self.kinds[k] or ""
         if self.members[k] == "both":
-            pairs = zip(self.limits[k], self.holders[k], strict=True)
-            return " on ".join(f"{limit} of the {member}" for limit, member in pairs).replace("_", " ")
-        return f"{self.kinds[k]} of the {self.members[k]} ({', '.join(self.limits[k])})".replace("_", " ")
+            pairs = zip(self.edges[k], self.holders[k], strict=True)
+            return " on ".join(f"{edge} of the {member}" for edge, member in pairs)
+        return f"{self.kinds[k]} of the {self.members[k]} ({', '.join(self.edges[k])})"
 
     def point(self, k, errors):
         """The entry ``first_contact`` of point k of a TCA with transmission errors (N,), rad; None if there is none."""
@@ -133,6 +135,7 @@ class FirstContacts:
             "kind": self.kinds[k],
             "member": self.members[k],
             "limits": list(self.limits[k]),
+            "edges": [f"{edge} of the {member}" for edge, member in zip(self.edges[k], self.holders[k], strict=True)],
             "point_mm": self.points[k].tolist(),
             "transmission_error_arcsec": float(np.degrees(self.errors[k]) * 3600.0),
             "overlap_mm": float(overlap) if math.isfinite(overlap) else None,
@@ -205,6 +208,7 @@ def _gathered(drive, angles, found, lines, reason=""):
         members=members,
         limits=limits,
         holders=holders,
+        edges=_edges(drive, shown, holders, limits),
         errors=mirror.sign * column(lambda f: f.wheel_turn),
         points=mirror.flip * column(lambda f: np.array(list(f.point)), nothing).reshape(-1, 3),
         normals=mirror.flip * column(lambda f: np.array(list(f.normal)), nothing).reshape(-1, 3),
@@ -234,6 +238,28 @@ def _held(bodies, found, line=None):
     return "edge", "both", names, whose
 
 
+def _edges(drive, places, holders, limits):
+    """Words for the limits that hold places, which tell the two ends of a face."""
+    if not any("face" in names for names in limits):
+        return tuple(tuple(name.replace("_", " ") for name in names) for names in limits)
+    bodies = {body["name"]: body for body in drive.design.description["bodies"]}
+    (middle,) = start_values(drive, np.array([drive.design.reference_angle]))
+
+    def edge(place, member, name):
+        margin = next((m for m in bodies[member]["margins"] if m["event"] == name), None)
+        if margin is None or margin["role"] != "face":
+            return name.replace("_", " ")
+        own = bodies[member]["unknowns"]
+        both = drive.flank(member)(np.stack([_unknowns(drive, place)[own], middle[own]]))
+        there, here = both.points * drive.design.mirror.flip
+        if margin.get("ends"):
+            return margin["ends"][int(np.linalg.norm(there) > np.linalg.norm(here))]
+        return ("left face", "right face")[int(there[2] > here[2])]
+
+    named = zip(places, holders, limits, strict=True)
+    return tuple(tuple(edge(p, *which) for which in zip(whose, names, strict=True)) for p, whose, names in named)
+
+
 def _event(bodies, member, limit):
     return "undercut" if limit == 0 else bodies[member]["margins"][limit - 1]["event"]
 
@@ -242,8 +268,8 @@ def _event(bodies, member, limit):
 class SearchedFlank:
     """A mesh over the wheel's bounded flank: a ``table`` for C, of arrays that are ``kept`` with it. ``solutions``
     (P, nx) of contacts in the middle, or the places from which they are sought, at ``angles`` (P,), right hand;
-    ``pointless``: none of them is a contact in a point; ``found``: first contacts by angle, ``ridges``: depths and
-    deepest places of the ridge of the wheel's turn.
+    ``pointless``: none of them is a contact in a point; ``extent``: longest side of a box about the flank, mm;
+    ``found``: first contacts by angle, ``ridges``: depths and deepest places of the ridge of the wheel's turn.
     """
 
     table: object
@@ -251,6 +277,7 @@ class SearchedFlank:
     angles: np.ndarray
     solutions: np.ndarray
     pointless: bool
+    extent: float
     found: dict = field(default_factory=dict, repr=False)
     ridges: dict = field(default_factory=dict, repr=False)
 
@@ -290,7 +317,8 @@ class SearchedFlank:
         for name, view in zip(names, views, strict=True):
             setattr(table, name, view)
         table.span = whole.chart.free
-        return cls(table, (kept, views), angles, solutions, pointless)
+        extent = float(np.ptp(triangles.points, axis=0).max())
+        return cls(table, (kept, views), angles, solutions, pointless, extent)
 
 
 def _triangulated(drive, unknowns):
@@ -486,6 +514,13 @@ class Search:
             if whole_way:
                 return self._of_places(angle, whole, limit < 0)
         return None
+
+    def rise(self, angle, found):
+        """How far the flanks stand apart at one end of the ridge of the wheel's turn while they touch at the other, mm;
+        NaN where no part of it lies on both.
+        """
+        ridge = self._curve(angle, found, 0, -1, STEP, math.inf, POINTS)
+        return _spread(ridge) if len(ridge) > 1 else math.nan
 
     def of_solution(self, angle, x):
         """The line of both flanks through a solution (nx,) at an angle, which may lie beyond them; None if there is

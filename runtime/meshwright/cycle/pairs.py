@@ -17,7 +17,7 @@ from meshwright.cycle.extremes import Extremes
 from meshwright.cycle.first_contact import search_from
 from meshwright.cycle.model import DriveModel
 from meshwright.cycle.rigid import ROUND_OFF, RigidTeeth
-from meshwright.cycle.windows import Window
+from meshwright.cycle.windows import Window, status_at
 
 #: Sampling of one pitch when looking for changes in the number of teeth in contact.
 SAMPLES = 96
@@ -82,18 +82,32 @@ class Mesh:
         return tuple(dict.fromkeys(f for flags in found.flags for f in flags if impossible(f)))
 
     @cached_property
-    def contact(self):
-        """What says where a pair touches: its path or, where it has none that bodies can make, the extremes of the
-        wheel's turn; None where neither is known.
+    def path(self):
+        """The path of tangencies along which pairs touch; None where there is none, or one that bodies cannot make
+        while their flanks' extremes say where they touch.
         """
-        if self.window.path is not None and not (self.impossible and self.window.complete and self.search):
-            return self.window.path
+        return None if self.impossible and self.window.complete and self.search else self.window.path
+
+    @cached_property
+    def status(self):
+        """Status word of the contact of a pair in the middle of its window."""
+        if self.path is self.window.path:
+            return self.window.status
+        return status_at(self.drive, self.middle, self.window.status)
+
+    @cached_property
+    def contact(self):
+        """What says where a pair touches: its path or, where it has none, the extremes of the wheel's turn; None where
+        neither is known.
+        """
+        if self.path is not None:
+            return self.path
         return None if self.search is None else Extremes(self.search)
 
     @cached_property
     def constant(self):
         """Whether flanks without a path transmit one error while they touch, but for rounding."""
-        if self.window.path is not None or not self.window.complete:
+        if self.path is not None or not self.window.complete:
             return False
         low, high = sorted((self.window.begin.angle, self.window.end.angle))
         inner = INNER * (high - low)

@@ -65,7 +65,7 @@ class Envelopes:
 def transmission_error(mesh):
     """:class:`TransmissionError` of a :class:`~meshwright.cycle.pairs.Mesh`."""
     window, nothing = mesh.window, math.nan
-    if window.path is None:
+    if mesh.path is None and window.complete:
         return _of_extremes(mesh)
     vertex, transfers = _vertex(mesh), _transfers(mesh)
     if not window.complete:
@@ -152,7 +152,7 @@ def peak_to_peak(mesh):
     """Peak to peak of the transmitted envelope alone, rad; NaN for a window without both ends."""
     if not mesh.window.complete:
         return math.nan
-    if mesh.window.path is None:
+    if mesh.path is None:
         return _over_a_pitch(mesh)[0]
     ends = tuple(sorted((mesh.window.begin.angle, mesh.window.end.angle)))
     return _ranges(mesh, ends, _vertex(mesh), _transfers(mesh))[0 if mesh.sense > 0 else 1]
@@ -204,7 +204,7 @@ def fourier(mesh, orders=8):
 
     TE(φ) = mean + Σ a_n cos(n·2π·φ/pitch + p_n), from 256 samples of one pitch, 64 without a path.
     """
-    samples = SAMPLES if mesh.window.path is not None else PITCH_SAMPLES
+    samples = SAMPLES if mesh.path is not None else PITCH_SAMPLES
     if mesh.constant:
         return np.zeros(orders), np.zeros(orders)
     found = envelopes(mesh, np.arange(samples) / samples * mesh.drive.pitch())

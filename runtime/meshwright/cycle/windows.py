@@ -93,7 +93,7 @@ def contact_window(drive):
     path, status = drive.path_start
     limits = limits_of(drive)
     if path is None:
-        return _of_lines(drive, limits) or Window(NO_EVENT, NO_EVENT, None, _status_at(drive, 0.0, status))
+        return _of_lines(drive, limits) or Window(NO_EVENT, NO_EVENT, None, status_at(drive, 0.0, status))
     path = _searched(path, limits)
     if not (_worst(path, limits) >= 0.0).any():
         path = _closer(path, limits)
@@ -113,10 +113,10 @@ def _of_lines(drive, limits):
     middle = 0.5 * (ends[0].angle + ends[1].angle)
     if not math.isfinite(middle):
         return None
-    return Window(*_in_order(drive, ends), None, _status_at(drive, middle, "line_contact"))
+    return Window(*_in_order(drive, ends), None, status_at(drive, middle, "line_contact"))
 
 
-def _status_at(drive, angle, otherwise):
+def status_at(drive, angle, otherwise):
     """Status word of the bounded flanks at an angle of the right-hand drive; ``otherwise`` where that is not known."""
     search, _ = Search.of(drive)
     (kind,) = (None,) if search is None else search.first(np.array([_mirror(drive) * angle])).kinds

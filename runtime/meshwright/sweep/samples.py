@@ -106,8 +106,8 @@ def solve(drive, keys, values, angles, portable=False):
 
 
 def _without_tangency(drive, found, angles, drive_of):
-    """Fill in where and how the bounded flanks touch at points at which lanes found no tangency."""
-    open_ = ~found.solved & (found.status != library().MW_BAD_INPUT)
+    """Fill in where and how the bounded flanks touch at points at which lanes found no tangency, or nearly a line."""
+    open_ = (~found.solved | (found.status == library().MW_CONVERGED_NOISE)) & (found.status != library().MW_BAD_INPUT)
     for k in np.flatnonzero(open_.any(axis=1)):
         result, rows = drive_of(k).tca(angles), open_[k]
         found.status[k, rows] = [analysis.status_codes(word)[0] for word in result.only(rows).status]
