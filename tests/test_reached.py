@@ -46,6 +46,16 @@ def _statuses(drive, generator):
     return found
 
 
+def _of_bounded_flanks():
+    """Words of helical gears with a lead slope, over their window and beyond."""
+    plain = {
+        "normal_module_mm": 1.0, "pressure_angle_deg": 20.0, "face_width_mm": 10.0, "pinion_teeth": 17,
+        "wheel_teeth": 43, "pinion_helix_angle_deg": 20.0, "wheel_lead_slope_um": 5.0,
+    }  # fmt: skip
+    helical = Drive.from_tables({"drive": "cylindrical-gears", "flank": "left", "design": plain})
+    return helical.tca(np.radians(np.linspace(-36.0, 36.0, 19))).status
+
+
 def test_every_status_is_reached():
     generator, found = np.random.default_rng(1), set()
     for name in DESIGNS:
@@ -60,6 +70,7 @@ def test_every_status_is_reached():
     for share in (1e-9, 1e-8, 1e-7):
         near_a_line = full.with_(design={"hob_pitch_radius_mm": radius * (1.0 + share)})
         found |= set(analysis.trace(near_a_line, np.linspace(-2.0, 2.0, 9))[1]["status"].tolist())
+    found |= set(analysis.status_codes(*_of_bounded_flanks()))
     assert found == set(analysis.statuses()), set(analysis.statuses()) ^ found
 
 

@@ -25,6 +25,7 @@ from derive.language.contact import contact
 from derive.language.definitions import Definitions
 from derive.language.drive import (
     PATH,
+    TOE_AND_HEEL,
     Body,
     Count,
     DesignSystem,
@@ -291,7 +292,7 @@ def _margins(tooth, point):
     outer, face = m.outer_cone_distance.symbol, m.face_width.symbol
     return (
         Margin("off_tip", "tip", below_tip),
-        Margin("off_face", "face", (outer - along) * (along - outer + face) / face),
+        Margin("off_face", "face", (outer - along) * (along - outer + face) / face, ends=TOE_AND_HEEL),
         Margin("off_root", "root", tooth.arc - tooth.blade.junction, Role.JUNCTION, joins="fillet"),
     )
 
@@ -376,6 +377,7 @@ class _MeanPoint:
             message="the settings of the gear cut no point at mid face and mid height",
             keys=_places(m.cradle_angle, m.radial, m.point_radius, m.sliding_base, m.outer_cone_distance),
             homotopy=True,
+            start=True,
             definitions=self.definitions,
         )
 
@@ -394,6 +396,7 @@ class _MeanPoint:
             message="the gear's mean point meets the pinion at no angle",
             keys=_places(k.offset, k.shaft_angle, GEAR.outer_cone_distance, GEAR.cradle_angle),
             fixed={phi_1: sp.Integer(0)},
+            start=True,
             definitions=self.definitions,
         )
 
@@ -411,6 +414,7 @@ class _MeanPoint:
             message="the settings of the pinion cut no point where the gear's mean point meets it",
             keys=_places(m.cradle_angle, m.radial, m.point_radius, m.sliding_base, m.blank_offset),
             homotopy=True,
+            start=True,
             definitions=self.definitions,
         )
 

@@ -19,6 +19,7 @@ from derive.language.contact import contact
 from derive.language.definitions import Definitions
 from derive.language.drive import (
     PATH,
+    TOE_AND_HEEL,
     Body,
     DesignSystem,
     Drive,
@@ -439,7 +440,7 @@ def _wheel_margins(point, u_g, cutter):
     x, y, _ = point
     radius = v.radius(x, y)
     return (
-        Margin("off_face", "face", (R_out - radius) * (radius - R_in) / (R_out - R_in)),
+        Margin("off_face", "face", (R_out - radius) * (radius - R_in) / (R_out - R_in), ends=TOE_AND_HEEL),
         Margin("off_tip", "tip", k.addendum.symbol - u_g * sp.cos(alpha_g)),
         Margin("off_root", "root", u_g - cutter.junction, Role.JUNCTION, joins="fillet"),
     )

@@ -206,7 +206,10 @@ def _quantities(drive):
 
 
 def _margins(margins):
-    return [{"flag": m.flag, "event": m.event, "role": m.role.value, "joins": m.joins} for m in margins]
+    return [
+        {"flag": m.flag, "event": m.event, "role": m.role.value, "joins": m.joins, "ends": list(m.ends)}
+        for m in margins
+    ]
 
 
 def _parameter(drive, p):
@@ -260,7 +263,9 @@ def _terms(drive, rule):
 
 
 def _system(drive, system):
-    """A design system: why it may have no solution, its number of unknowns, which parameters it fills in."""
+    """A design system: why it may have no solution, its number of unknowns, which parameters it fills in, and whether
+    that is only where the search for contact starts.
+    """
     symbols = [p.symbol for p in drive.parameters]
     return {
         "name": system.name,
@@ -268,6 +273,7 @@ def _system(drive, system):
         "keys": list(system.keys),
         "unknowns": len(system.unknowns),
         "fills": [symbols.index(target) for target in system.fills],
+        "start": system.start,
     }
 
 

@@ -91,6 +91,7 @@ def _key(drive: Drive, p: Parameter) -> dict[str, Data]:
 def _margin(m: Margin) -> dict[str, Data]:
     return {
         "flag": m.flag, "event": m.event, "role": m.role and m.role.value, "joins": m.joins,
+        "ends": list(m.ends),
         "positive": prefix(m.positive), "relative": m.relative, "along": m.along and m.along.name,
     }  # fmt: skip
 

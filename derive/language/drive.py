@@ -42,6 +42,10 @@ class Role(Enum):
     SPURIOUS_SHEET = "spurious_sheet"
 
 
+#: Ends of a face that lie nearer to the axis and farther from it.
+TOE_AND_HEEL = ("toe", "heel")
+
+
 @dataclass(frozen=True)
 class Margin:
     """A limit of validity: where ``positive`` < 0 the point carries ``flag``.
@@ -51,7 +55,9 @@ class Margin:
     that ends here says what ended it. A ``relative`` margin is divided by its value at the body's regular
     reference point, for functions whose sign has no meaning of its own. With ``along``, a surface parameter, the
     limit is where ``positive`` stops growing along it. ``role`` is what ends the surface here, by default what the
-    event says; ``joins`` names the region of the same member that goes on beyond the limit.
+    event says; ``joins`` names the region of the same member that goes on beyond the limit. ``ends`` are the words for
+    the two ends of a face, first the one nearer to the origin of the body, such as toe and heel; where none are given,
+    they are the left face and the right one, at larger z.
     """
 
     flag: str
@@ -61,6 +67,7 @@ class Margin:
     relative: bool = False
     along: Quantity | None = None
     joins: str = ""
+    ends: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.role is None and self.event in {role.value for role in Role}:
@@ -126,13 +133,14 @@ PATH = Quantity("path", "", "share of the way of a continuation")
 class DesignSystem:
     """Equations that a design solves once, before anything else; their solution fills in open parameters.
 
-    Systems run in order after the rules, and the rules run again after each, so that what follows from a solution
-    is known to the next. ``residual`` may contain :data:`PATH`: the ``guess`` solves it (nearly) at 0 and the
-    solution is followed to 1. ``regular``, where given, is a surface and a sign: sign × its singular function must
-    stay positive all along. A design for which this fails is illegal for the reason ``message``, in which ``keys``
-    meet. ``fills`` are parameters and their values; a design that gives them all skips the system. ``fixed``
-    replaces symbols by constants throughout. With ``homotopy`` any guess will do that leads there: what the residual is
-    at the guess falls to zero along the path.
+    Systems run in order after the rules, and the rules run again after each, so that what follows from a solution is
+    known to the next. ``residual`` may contain :data:`PATH`: the ``guess`` solves it (nearly) at 0 and the solution is
+    followed to 1. ``regular``, where given, is a surface and a sign: sign × its singular function must stay positive
+    all along. A design for which this fails is illegal for the reason ``message``, in which ``keys`` meet. ``fills``
+    are parameters and their values; a design that gives them all skips the system. ``fixed`` replaces symbols by
+    constants throughout. With ``homotopy`` any guess will do that leads there: what the residual is at the guess falls
+    to zero along the path. ``start``: the solution only begins the search for contact, and where there is none the
+    place nearest to one serves.
     """
 
     name: str
@@ -145,6 +153,7 @@ class DesignSystem:
     fixed: Values = field(default_factory=dict[Quantity, Number])
     regular: tuple[Surface, Number] | None = None
     homotopy: bool = False
+    start: bool = False
     definitions: Definitions = field(default_factory=Definitions)
 
     def __post_init__(self) -> None:

@@ -445,6 +445,8 @@ def _limits(drive: Drive) -> Iterator[str]:
                 yield f"{where} is a junction and joins nothing; name the region of the {member} that goes on there"
             elif m.role is not Role.JUNCTION and m.event in OWN_ROLES and m.role.value != m.event:
                 yield f"{where} has the role {m.role.name} of another event; leave the role out, or name that event"
+            if m.ends and (m.role is not Role.FACE or len(m.ends) != 2):
+                yield f"{where} has the ends {m.ends!r}; give two words to a face, and none to another limit"
             if strangers := _strangers(drive, m.positive, known):
                 yield f"{where} needs {', '.join(strangers)}, which neither surface nor design gives"
             if m.along is not None and m.along not in surface.parameters:

@@ -157,7 +157,9 @@ typedef struct mw_model {
     X(MW_CONVERGED, 0, "converged", "the last step was below tolerance") \
     X(MW_CONVERGED_NOISE, 1, "converged", "the steps ended in round-off; near line contact the point is ill-determined") \
     X(MW_LINE_CONTACT, 2, "line_contact", "the flanks touch along a line: no single contact point exists") \
-    X(MW_NO_CONTACT, -1, "no_contact", "the flanks do not touch at this angle") \
+    X(MW_EDGE_CONTACT, 3, "edge_contact", "an edge of a tooth touches the other flank, or an edge of that, first") \
+    X(MW_CORNER_CONTACT, 4, "corner_contact", "a corner of a tooth, where two of its edges meet, touches the other flank first") \
+    X(MW_NO_CONTACT, -1, "no_contact", "no turn of the wheel brings the bounded flanks together at this angle") \
     X(MW_LEFT_FLANK, -2, "left_flank", "the search left the domain in which the flanks exist") \
     X(MW_FOLD, -3, "fold", "the branch of contact turns back before this angle") \
     X(MW_SINGULAR, -4, "singular", "the equations are singular here but the flanks do not touch along a line") \

@@ -5,6 +5,7 @@
  * in the interior (a tangency), on a limit of either flank (an edge), or where two limits meet (a corner). */
 #include "exact.h"
 #include "first/cover.h"
+#include "first/curve.h"
 #include "solver/basics.h"
 
 /* Local extremes of the mesh that are refined. */
@@ -47,6 +48,28 @@ static int carry(search *h, const mw_model *m, const double *s, const mw_flank_m
         if (!meet(h, P)) return MW_DIVERGED;
     }
     return MW_CONVERGED;
+}
+
+/* A place with the limits that hold it, and its kind: held by none, in an edge or where two borders of a member meet. */
+static void write_place(const search *h, const place *P, const double *pinion, const int *active, mw_first *found)
+{
+    const int of_wheel = h->m->bodies[1].margins + 1;
+    for (int i = 0; i < 2; i++) {
+        const int a = active[i] < MAX_LIMITS ? active[i] : -1;
+        found->limit[i] = a < 0 ? -1 : a < of_wheel ? a : a - of_wheel;
+        found->member[i] = a < 0 ? -1 : a < of_wheel;
+    }
+    const int held = (found->limit[0] >= 0) + (found->limit[1] >= 0);
+    found->status = held == 0 ? MW_CONVERGED
+                    : held == 2 && found->member[0] == found->member[1] ? MW_CORNER_CONTACT : MW_EDGE_CONTACT;
+    found->wheel_turn = P->delta;
+    found->lever = P->lever;
+    memcpy(found->q_wheel, P->q, (size_t)h->nw * sizeof *P->q);
+    memcpy(found->q_pinion, P->p, (size_t)h->nk * sizeof *P->p);
+    for (int i = 0; i < 3; i++) {
+        found->point[i] = pinion[4 * i + 3] + dot(pinion + 4 * i, P->point);
+        found->normal[i] = dot(pinion + 4 * i, P->normal);
+    }
 }
 
 int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion,
@@ -113,24 +136,88 @@ int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *me
     const double left = fmax(best.highest, best.floor);
     if (!best.found) return found->status = left > best.least ? MW_DIVERGED : MW_NO_CONTACT;
     found->unresolved = fmax(0.0, (left - best.at.value) * fabs(best.at.lever));
-    found->wheel_turn = best.at.delta;
-    found->lever = best.at.lever;
-    for (int i = 0; i < 2; i++) {
-        const int wheel_limits = m->bodies[1].margins + 1;
-        const int a = best.active[i] < MAX_LIMITS ? best.active[i] : -1;
-        found->limit[i] = a < 0 ? -1 : a < wheel_limits ? a : a - wheel_limits;
-        found->member[i] = a < 0 ? -1 : a < wheel_limits;
-    }
-    memcpy(found->q_wheel, best.at.q, (size_t)h.nw * sizeof *best.at.q);
-    memcpy(found->q_pinion, best.at.p, (size_t)h.nk * sizeof *best.at.p);
-    for (int i = 0; i < 3; i++) {
-        found->point[i] = pinion[4 * i + 3] + dot(pinion + 4 * i, best.at.point);
-        found->normal[i] = dot(pinion + 4 * i, best.at.normal);
-    }
-    return found->status = MW_CONVERGED;
+    write_place(&h, &best.at, pinion, best.active, found);
+    return found->status;
 }
 
 size_t mw_first_contact_work(size_t vertices)
 {
     return (vertices * (sizeof(place) + 1) + MIDDLES * sizeof(middle) + sizeof(double) - 1) / sizeof(double);
+}
+
+/* A place where flanks meet, `at`, on its curve; 0 where there is none, or the flanks are of another kind. */
+static int on_curve(search *h, const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion,
+                    const double *wheel, double turn, double sense, const mw_first *at, int member, int limit, curve *c, place *P)
+{
+    memset(P, 0, sizeof *P);
+    P->pinion.p[0] = NAN;
+    if (!mwi_usable(m) || !m->kernels || !m->kernels->bounded) return 0;
+    if (m->bodies[0].parameters > MAX_K || m->bodies[1].parameters > MAX_K) return 0;
+    if (limit >= 0 && (member < 0 || member > 1 || limit > m->bodies[member].margins)) return 0;
+    if (!set_up(h, m, s, mesh, pinion, wheel, turn)) return 0;
+    h->sense = sense;
+    memcpy(P->q, at->q_wheel, (size_t)h->nw * sizeof *P->q);
+    memcpy(P->p, at->q_pinion, (size_t)h->nk * sizeof *P->p);
+    P->delta = at->wheel_turn;
+    c->h = h;
+    c->held = limit < 0 ? -1 : member ? limit : limit + m->bodies[1].margins + 1;
+    return meet(h, P) && curve_reach(c, -1, P);
+}
+
+size_t mw_first_curve(const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion, const double *wheel,
+                      double turn, double sense, const mw_first *at, int member, int limit, double step, double fall,
+                      size_t count, double *work, mw_first *found)
+{
+    search h;
+    curve c;
+    place P, *places = (place *)(void *)work;
+    model_ q;
+    double off, a[2];
+    if (!(step > 0.0) || !on_curve(&h, m, s, mesh, pinion, wheel, turn, sense, at, member, limit, &c, &P)) return 0;
+    if (curve_exceeded(&c, &P) >= 0) curve_deepest(&c, step, 1, &P);
+    if (curve_exceeded(&c, &P) >= 0 || !curve_at(&c, &P, &q, &off, a)) return 0;
+    const double most = fall / fabs(P.lever);
+    size_t n = 0;
+    for (int side = 0; side < 2; side++) {
+        const double way[2] = {side ? -a[1] : a[1], side ? a[0] : -a[0]};
+        int ended = -1;
+        const size_t along = curve_along(&c, &P, step, most, way, count, places, &ended);
+        for (size_t k = side ? 1 : 0; k <= along; k++) {
+            const int active[2] = {c.held, k == along && along > 0 ? ended : -1};
+            write_place(&h, k ? places + k - 1 : &P, pinion, active, found + n++);
+        }
+        for (size_t i = 0, j = n - 1; !side && i < j; i++, j--) { /* towards the start */
+            const mw_first other = found[i];
+            found[i] = found[j];
+            found[j] = other;
+        }
+    }
+    return n;
+}
+
+/* Limits that differ by less, mm, are as near to the deepest place: it lies between them. */
+static const double AS_DEEP = 1e-6;
+
+size_t mw_first_curve_work(size_t count)
+{
+    return (count * sizeof(place) + sizeof(double) - 1) / sizeof(double);
+}
+
+int mw_first_deepest(const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion, const double *wheel,
+                     double turn, double sense, const mw_first *at, double step, double *depth, mw_first *found)
+{
+    search h;
+    curve c;
+    place P;
+    *depth = NAN;
+    memset(found, 0, sizeof *found);
+    if (!(step > 0.0) || !on_curve(&h, m, s, mesh, pinion, wheel, turn, sense, at, 0, -1, &c, &P))
+        return found->status = MW_NO_CONTACT;
+    curve_deepest(&c, step, 0, &P);
+    *depth = curve_depth(&c, &P);
+    int active[2] = {-1, -1}, n = 0;
+    for (int i = 0; i < limit_count(&h) && n < 2; i++)
+        if (P.limits[i] <= *depth + AS_DEEP) active[n++] = i;
+    write_place(&h, &P, pinion, active, found);
+    return found->status;
 }

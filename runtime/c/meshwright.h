@@ -241,13 +241,36 @@ typedef struct mw_first {
  * of the pinion's flank and turn of the wheel where the two meet at the first placements, nearly; further placements lead
  * from there in steps. until: turn of the wheel, as wheel_turn, up to which the first contact is asked for, -sense times
  * infinity wherever it is: beyond, what is found may be a later contact of the flanks, or none. work[mw_first_contact_work(
- * vertices)]. Returns MW_CONVERGED, MW_NO_CONTACT where no point of the wheel's flank meets the pinion's or where both go
+ * vertices)]. Returns what kind of contact it is, MW_CONVERGED (a tangency), MW_EDGE_CONTACT or MW_CORNER_CONTACT; on a line,
+ * which is no kind of its own here, see mw_first_curve, any of them; MW_NO_CONTACT where no point of the wheel's flank meets the pinion's or where both go
  * on with nothing to end them, MW_DIVERGED where the start does not lead to the flank, or MW_BAD_INPUT for flanks of another
  * kind. */
 int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion,
                      const double *wheel, size_t steps, double turn, double sense, const double *start, double until,
                      double *work, mw_first *found);
 size_t mw_first_contact_work(size_t vertices);
+
+/* The curve through a place at[1] of first contact: with limit = -1 the ridge on which the wheel angle is extreme across it,
+ * else the border of a member (0 pinion, 1 wheel) on which that limit of it, numbered as in mw_first, holds. Where the wheel
+ * angle is the same all along it, the flanks touch along it. From one of its places on both flanks, the nearest to `at`, it
+ * goes both ways, in steps of so many natural sizes, to where another limit ends it (limit[1] and member[1] of the end, -1
+ * where none does), or where the place that its angle gives to the flanks lies further back than `fall`, mm along the normal.
+ * found[2*count + 1] in order along it, of which `unresolved`, met and open are not set; work[mw_first_curve_work(count)].
+ * Placements as the last ones of mw_first_contact. Returns the number of places, 0 where no part of it lies on both flanks. */
+size_t mw_first_curve(const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion, const double *wheel,
+                      double turn, double sense, const mw_first *at, int member, int limit, double step, double fall,
+                      size_t count, double *work, mw_first *found);
+size_t mw_first_curve_work(size_t count);
+
+/* The place on the ridge through `at` that lies deepest inside the limits of both flanks, limit[0] and member[0] the one that it
+ * is nearest to, limit[1] and member[1] another one as near, and how deep, the value of that limit, negative where the ridge misses the flanks. Returns as
+ * mw_first_contact. */
+int mw_first_deepest(const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion, const double *wheel,
+                     double turn, double sense, const mw_first *at, double step, double *depth, mw_first *found);
+
+/* Start values x[nx] of the contact in the middle of the flanks, no solution; s is set up for its angle. Returns MW_CONVERGED, or
+ * why they are only a first guess. */
+int mw_start_values(const mw_model *m, const double *s, double *x);
 
 /* Name of flag number bit of mw_contact.flags, NULL where there is none. */
 const char *mw_flag(const mw_model *m, int bit);

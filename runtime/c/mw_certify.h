@@ -20,7 +20,7 @@ extern "C" {
     X(MW_REASON_BOX, 4, "box", "neither a solution nor its absence can be shown in this box: divide it") \
     X(MW_REASON_OUTSIDE, 5, "outside", "the box reaches beyond the domain of the equations") \
     X(MW_REASON_DESIGN, 6, "design", "a size that follows from the design cannot be enclosed") \
-    X(MW_REASON_CONTACT, 7, "no_contact", "there is no solution to begin with") \
+    X(MW_REASON_CONTACT, 7, "no_contact", "there is no tangency to begin with: an edge or a corner touches, or nothing") \
     X(MW_REASON_ARITHMETIC, 8, "arithmetic", "this processor or compiler does not round as the bounds need") \
     X(MW_REASON_OFF_FLANK, 9, "off_flank", "the contact does not surely lie on both bounded flanks") \
     X(MW_REASON_CONDITION, 10, "condition", "places of a flank of this drive are not two free numbers, or its wheel turns otherwise") \

@@ -18,6 +18,12 @@ int mw_solve(const mw_model *m, const double *p, double phi, double *s, double *
     return mwi_solve(m, p, phi, s, work, x, info);
 }
 
+int mw_start_values(const mw_model *m, const double *s, double *x)
+{
+    mw_info info;
+    return mwi_usable(m) ? mwi_start_values(m, s, x, &info) : MW_BAD_INPUT;
+}
+
 typedef struct trace {
     const mw_model *m;
     const double *phi;

@@ -146,10 +146,9 @@ class Drive:
         """The wheel's flank about the contacts in the middle, None if there is none within its limits:
         :class:`~meshwright.cycle.first_contact.SearchedFlank`.
         """
-        from meshwright.cycle.first_contact import SearchedFlank, about_the_middle
+        from meshwright.cycle.first_contact import SearchedFlank
 
-        _, unknowns = about_the_middle(self)
-        return SearchedFlank.of(self, unknowns[np.isfinite(unknowns).all(axis=1)])
+        return SearchedFlank.of(self)
 
     def flank(self, member, region="flank"):
         """The generated flank of ``"pinion"`` or ``"wheel"``, or another region that the drive has of a member."""
@@ -167,12 +166,19 @@ class Drive:
         return s
 
     def tca(self, angles):
-        """Tooth contact analysis at pinion angles (rad), in any order; see :class:`~meshwright.contact.results.TCA`."""
+        """Tooth contact analysis at pinion angles (rad), in any order; see :class:`~meshwright.contact.results.TCA`.
+
+        Where no tangency of the flanks is found, or one along a line: the extreme of the wheel's turn over both bounded
+        flanks, which is a line, an edge, a corner or nothing.
+        """
+        from meshwright.cycle.bounded import bounded
+
         angles = analysis.checked_angles(angles)
         result = analysis.analyse(self, angles)
         outside = result.outside_the_tips
         if outside.any() and self.past_the_tips:
             result = result.without_contact(outside)
+        result = bounded(self, result)
         return flags.flagged(result, self.edge_window)
 
     @cached_property

@@ -238,10 +238,10 @@ def test_a_size_of_ones_own_that_nothing_follows_is_said(tmp_path, monkeypatch, 
     monkeypatch.chdir(tmp_path)
     assert main(["new", "bevel", "--m", "4", "--z", "15:44", "--set", "design.offset_mm=20", "--out", "b.toml"]) == 0
     shown = capsys.readouterr().out
-    assert "design.offset_mm = 20: as given; no other size follows it" in shown and "careful: no_contact" in shown
+    assert "design.offset_mm = 20: as given; no other size follows it" in shown and "careful: edge_contact" in shown
     assert "without design.offset_mm = 20 the flanks touch" in shown and "bevel-hypoid" in shown
-    assert main(["tca", "b.toml", "--phi-deg", "0"]) == 1
-    assert "design.offset_mm = 20: 0 by the proportions of this family" in capsys.readouterr().err
+    assert main(["tca", "b.toml", "--phi-deg", "0"]) == 0
+    assert "edge_contact (toe of the pinion)" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
@@ -306,7 +306,6 @@ def test_no_file_is_overwritten(tmp_path, monkeypatch, capsys):
 @pytest.mark.parametrize(
     ("change", "told"),
     [
-        ("design.worm_threads=3", "design.hob_threads = 2: 3 by"),
         ("design.axial_module_mm=5", "design.center_distance_mm = 100: 120 by"),
         ("design.center_distance_mm=120", "x_2 = 5: profile shift coefficient of the wheel"),
         ("design.hob_pitch_radius_mm=5", "design.hob_pitch_radius_mm = 5: 21 by"),

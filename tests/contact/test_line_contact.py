@@ -9,6 +9,7 @@ import pytest
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.contact.contact_line import contact_line
+from meshwright.contact.results import ARCSEC
 
 SPUR = {
     "drive": "spherical",
@@ -84,3 +85,37 @@ def test_the_command_draws_the_line(capsys):
     assert main(["tca", "recess-action-full", *setting, "--phi-deg", "1000", "--contour", "8", "--json", "-"]) == 0
     (point,) = json.loads(capsys.readouterr().out)["points"]
     assert point["contour"] == [] and len(point["contact_line_mm"]) > 10
+
+
+def test_a_worm_and_a_wheel_cut_by_its_equal_touch_along_a_curve_from_face_to_face():
+    """ZI, m_x 4, 2/40, r1 20: a point for each polar angle of the thread, from the meshing of the worm alone."""
+    drive = Drive.from_tables({
+        "drive": "cylindrical-worm", "flank": "right",
+        "design": {"worm_profile": "ZI", "axial_module_mm": 4.0, "worm_threads": 2, "wheel_teeth": 40,
+                   "worm_pitch_radius_mm": 20.0, "pressure_angle_deg": 20.0},
+        "blank": {"worm_tip_radius_mm": 24.0, "worm_root_radius_mm": 15.2, "wheel_throat_radius_mm": 84.0,
+                  "wheel_tip_radius_mm": 86.0, "wheel_face_width_mm": 24.0},
+    })  # fmt: skip
+    (point,) = drive.tca([0.0]).to_points()
+    line = point["contact_line"]
+    assert point["status"] == "line_contact" and point["transmission_error_arcsec"] == pytest.approx(0.0, abs=1e-8)
+    at_ends = line["curvature_per_mm"][0], line["curvature_per_mm"][-1]
+    order = sorted(zip((end["point_mm"] for end in line["ends"]), at_ends, strict=True))
+    assert order[0][0] == pytest.approx([18.6127060, 12.0, 6.2397587], abs=1e-7)
+    assert order[1][0] == pytest.approx([19.2030248, -12.0, 1.9053764], abs=1e-7)
+    assert [curvature for _, curvature in order] == pytest.approx([0.0462716, 0.0303573], abs=1e-7)
+    assert line["length_mm"] == pytest.approx(24.57378, abs=2e-5)
+    assert all((end["member"], end["limits"]) == ("wheel", ["face"]) for end in line["ends"])
+
+
+@pytest.mark.parametrize("name", ["bevel-crown-pair", "bevel-face-hobbed-crown-pair"])
+def test_gears_cut_by_one_crown_gear_touch_along_lines_from_end_to_end_of_their_window(name):
+    """Their mean contact may lie far from the pinion's angle 0; past the ends of the window no line is left."""
+    drive = Drive.load(name)
+    window = drive.window
+    low, high = sorted((window.begin.angle, window.end.angle))
+    assert window.complete and window.status == "line_contact" and low < drive.design.reference_angle < high
+    inner = 1e-4 * (high - low)
+    inside = drive.tca(np.linspace(low + inner, high - inner, 9))
+    assert set(inside.status) == {"line_contact"} and np.abs(inside.error).max() < 1e-8 * ARCSEC
+    assert "line_contact" not in drive.tca(np.array([low - inner, high + inner])).status

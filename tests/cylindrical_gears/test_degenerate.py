@@ -21,8 +21,11 @@ def solved(design, errors=None, angles=ANGLES):
 
 @pytest.mark.parametrize("errors", [{"vertical_deg": 0.05}, {"horizontal_deg": -0.05}])
 @pytest.mark.parametrize("design", [PAIR, HELICAL])
-def test_unmodified_parallel_gears_that_are_tilted_touch_nowhere_inside(design, errors):
-    assert set(solved(design, errors).status) == {"no_contact"}
+def test_unmodified_parallel_gears_that_are_tilted_touch_at_the_end_of_a_face(design, errors):
+    found = solved(design, errors)
+    assert set(found.status) == {"edge_contact"}
+    assert all("face of the" in text or "(face)" in text for text in found.messages)
+    assert np.abs(np.abs(found.points[:, 2]) - 10.0).max() < 0.1
 
 
 def test_profile_modifications_alone_leave_a_spur_pair_its_line():

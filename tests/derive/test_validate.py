@@ -124,6 +124,9 @@ CASES = {
     "junction with nothing": (
         lambda d: _with_margin(d, Margin("off_tip", "tip", X, Role.JUNCTION)), "'tip'.*is a junction and joins nothing"
     ),
+    "ends of no face": (
+        lambda d: _with_margin(d, Margin("off_tip", "tip", X, ends=("toe", "heel"))), "two words to a face"
+    ),
     "margin of strangers": (lambda d: _with_margin(d, Margin("off_tip", "tip", sp.Symbol("q"))), "needs q"),
     "margin that joins nothing": (
         lambda d: _with_margin(d, Margin("off_tip", "tip", X, joins="filet")), "joins the region 'filet'"

@@ -104,15 +104,15 @@ def test_straight_blade_without_plunge_touches_along_a_line():
 @pytest.mark.parametrize(
     ("design", "errors", "status", "flags"),
     [
-        ({"blade_parabola_per_mm": 0.0}, {}, {"no_contact"}, set()),
-        pytest.param({"blade_parabola_per_mm": 1e-6}, {"offset_mm": 0.1}, {"no_contact"}, set(), marks=LATER),
-        pytest.param({"blade_parabola_per_mm": 0.0, "plunge_mm_per_rad2": 0.0}, {"offset_mm": 0.1}, {"no_contact"},
+        ({"blade_parabola_per_mm": 0.0}, {}, {"edge_contact"}, set()),
+        pytest.param({"blade_parabola_per_mm": 1e-6}, {"offset_mm": 0.1}, {"edge_contact"}, set(), marks=LATER),
+        pytest.param({"blade_parabola_per_mm": 0.0, "plunge_mm_per_rad2": 0.0}, {"offset_mm": 0.1}, {"edge_contact"},
                      set(), marks=LATER),
         ({"blade_parabola_per_mm": -0.01}, {}, {"converged"}, {"interference"}),
     ],  # fmt: skip
 )
-def test_uncrowned_blades_leave_no_contact_point_and_hollow_ones_interfere(design, errors, status, flags):
-    """Without crowning, plunge or errors drive the contact off the profile: a status, not a number."""
+def test_uncrowned_blades_touch_on_an_edge_and_hollow_ones_interfere(design, errors, status, flags):
+    """Without crowning, plunge or errors drive the contact off the profile, to its end."""
     result = changed(NAMES[0], design, errors).tca(np.radians([-180.0, -90.0, 90.0, 180.0]))
     assert set(result.status) == status
     assert set().union(*result.flags) == flags

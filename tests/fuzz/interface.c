@@ -564,6 +564,24 @@ static void foreign(reader *r, fuzzed *f)
     if (mw_flank_tangent(&other, 0, f->p, change, f->from->x, 1, o) != MW_BAD_INPUT) fail("tangents of a header alone");
 }
 
+/* The curves through a place of first contact. */
+static void along(reader *r, fuzzed *f, const mw_flank_mesh *mesh, const double *pinion, const double *wheel, double turn,
+                  double sense, const mw_first *at)
+{
+    enum { PLACES = 6 };
+    mw_first *found = room(2 * PLACES + 1, sizeof *found);
+    double *work = numbers(mw_first_curve_work(PLACES)), depth = 0.0;
+    const int member = (int)(byte(r) % 4) - 1, limit = (int)(byte(r) % 6) - 1;
+    const double step = number(r, 0.125), fall = number(r, HUGE_VAL);
+    const size_t n = mw_first_curve(f->m, f->s, mesh, pinion, wheel, turn, sense, at, member, limit, step, fall, PLACES, work, found);
+    if (n > 2 * PLACES + 1) fail("a curve of more places than there is room for");
+    for (size_t k = 0; k < n; k++)
+        if (!(fabs(found[k].wheel_turn) < HUGE_VAL)) fail("a place of a curve without an angle");
+    const int status = mw_first_deepest(f->m, f->s, mesh, pinion, wheel, turn, sense, at, step, &depth, found);
+    if (status >= 0 && !(depth == depth)) fail("a deepest place without a depth");
+    calls += 2;
+}
+
 static void first(reader *r, fuzzed *f)
 {
     const mw_model *m = f->m;
@@ -596,6 +614,7 @@ static void first(reader *r, fuzzed *f)
     if (status >= 0 && !(fabs(found->wheel_turn) < HUGE_VAL)) fail("first contact without an angle");
     ended[(status + 8) & 15]++;
     calls++;
+    if (status >= 0) along(r, f, &mesh, pinion + 12 * (from->steps - 1), wheel + 12 * (from->steps - 1), turn, sense, found);
 }
 
 /* The drive's entries for CasADi; any argument or result may be absent. */

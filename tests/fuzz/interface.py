@@ -167,7 +167,7 @@ def _search(drive):
     try:
         angles = np.array([0.05])
         solved = drive.tca(angles)
-        search = first_contact._Search.of(drive, angles, solved.solutions)[0]
+        search = first_contact.Search.of(drive, angles, solved.solutions)[0]
         if search is None:
             return None
         table, start = search.flank.table, solved.solutions[0]

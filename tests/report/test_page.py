@@ -103,12 +103,20 @@ def test_a_shift_that_is_round_off_is_zero_in_the_table_and_invisible_in_the_pic
 
 
 @pytest.mark.validate
-def test_a_misalignment_without_contact_has_no_panel():
-    """A concave gear cannot be tilted about x in the convex one that fills it."""
+def test_a_misalignment_has_a_panel_if_the_flanks_touch_under_it_wherever_that_is():
+    """A concave gear that is tilted about x in the convex one that fills it touches that with an edge. Moved by more
+    than both face widths along their axes, gears stand beside each other.
+    """
     analysis = analyse(Drive.load("spherical-table-2-1"), quiet)
-    untouched = [effect.key for effect in analysis.sensitivities if not effect.touches]
-    assert untouched == ["horizontal_deg"]
-    assert len(sensitivity_figures.error(analysis).axes) == len(analysis.sensitivities) - 1
+    assert all(effect.touches for effect in analysis.sensitivities)
+    (tilted,) = (effect for effect in analysis.sensitivities if effect.key == "horizontal_deg")
+    assert {*tilted.minus.status, *tilted.plus.status} == {"edge_contact"} and tilted.at_points
+    assert np.isfinite(tilted.peak_to_peak).all()
+    face = analysis.drive.design.value("face_width_mm")
+    aside = analyse(Drive.load("spur-profile-shift"), quiet, sizes={"axial_mm": 2.5 * face})
+    assert [effect.key for effect in aside.sensitivities if not effect.touches] == ["axial_mm"]
+    panels = [axes for axes in sensitivity_figures.error(aside).axes if axes.get_xlabel()]
+    assert len(panels) == len(aside.sensitivities) - 1
 
 
 def test_text_of_the_design_is_escaped(analysed):

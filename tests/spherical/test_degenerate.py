@@ -22,9 +22,9 @@ def test_spur_gears_touch_along_a_line(pair):
     assert result.error == pytest.approx([offset] * 2, abs=1e-13)
 
 
-def test_misaligned_spur_gears_have_no_interior_contact(pair):
+def test_misaligned_spur_gears_touch_on_an_edge(pair):
     result = pair("spur", "spur", misalignment={"vertical_deg": 0.5}).tca([0.0])
-    assert result.status == ("no_contact",)
+    assert result.status == ("edge_contact",)
 
 
 #: The forms of a pair and the radii of their spheres.

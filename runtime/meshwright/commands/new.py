@@ -19,7 +19,7 @@ from meshwright.base.errors import DesignError, UsageError
 from meshwright.base.files import write_text
 from meshwright.commands import options as common
 from meshwright.contact.flags import not_first
-from meshwright.contact.results import TOUCHING, impossible
+from meshwright.contact.results import ON_FLANKS, impossible
 from meshwright.design import description
 from meshwright.design import design as designs
 from meshwright.design.outline import first_design
@@ -148,7 +148,7 @@ def _contact(drive):
     result = drive.tca(drive.about_the_middle(np.linspace(-0.5, 0.5, 5)))
     result = not_first(result, drive.first_contact(result.angles, result))
     for k, (status, flags) in enumerate(zip(result.status, result.flags, strict=True)):
-        word = next((flag for flag in flags if impossible(flag)), None if status in TOUCHING else status)
+        word = next((flag for flag in flags if impossible(flag)), None if status in ON_FLANKS else status)
         if word:
             angle = np.degrees(result.angles[k])
             return False, f"careful: {word} at {angle:.4g} degrees: change a size first (`meshwright explain {word}`)"

@@ -17,7 +17,7 @@ from meshwright.commands.shown import shown
 from meshwright.contact import words
 from meshwright.contact.analysis import reasons, status_text
 from meshwright.contact.friction import mean_efficiency
-from meshwright.contact.results import ARCSEC
+from meshwright.contact.results import ARCSEC, TOUCHING
 from meshwright.cycle import room
 from meshwright.cycle.backlash import meaning
 from meshwright.cycle.certified import certified_window
@@ -25,6 +25,9 @@ from meshwright.cycle.certified_cycle import certified_cycle
 from meshwright.cycle.ends import event, why_open, without_contact
 from meshwright.cycle.transmission import ROUND_OFF, changes, fourier
 from meshwright.flank.pointed import Pointed, pointed
+
+#: Part of a contact ratio that is rounding.
+RATIO_ROUND_OFF = 1e-9
 
 #: Tooth orders of the Fourier components that are written; ranges of angles that a line names.
 ORDERS, MOST_RANGES = 8, 3
@@ -87,6 +90,8 @@ def document(drive, found, angles, friction=None):
         "begin": _event(found.begin),
         "end": _event(found.end),
         "contact_ratio": finite_or_none(found.contact_ratio),
+        "transverse_contact_ratio": finite_or_none(found.transverse_contact_ratio),
+        "overlap_ratio": finite_or_none(found.overlap_ratio),
         "average_contact_teeth": {
             "over_one_pitch": finite_or_none(found.average_over_pitch),
             "begin_to_end": finite_or_none(found.average_begin_to_end),
@@ -94,6 +99,7 @@ def document(drive, found, angles, friction=None):
         "contact_teeth": [_teeth(found.mesh, angle) for angle in angles],
         "transmission_error": _transmission(found),
         "backlash_arcsec": finite_or_none(found.backlash / ARCSEC),
+        "backlash_mm": dict(zip(("transverse", "normal"), map(finite_or_none, found.backlash_lengths), strict=True)),
         "room": [entry._asdict() for entry in room.room(drive, found.backlash)],
         "pointed_teeth": [member.plain() for member in pointed(drive)],
         "efficiency": _efficiency(mean_efficiency(found.mesh, friction)),
@@ -161,12 +167,14 @@ def _orders(mesh):
 
 def _page(drive, found, contents):
     lines = [f"{drive.design.description['title']}, {drive.design.tables['name'] or 'design'}"]
-    if found.status == "line_contact":
-        lines.append(f"no path of contact points: {status_text(found.status)}")
+    if found.mesh.path is None and found.status in TOUCHING:
+        lines.append(status_text(found.status))
     if why := why_open(found.mesh):
         lines.append(f"no complete window of contact: {why}")
     if found.impossible:
-        lines.append(f"bodies cannot make this contact everywhere from begin to end: {', '.join(found.impossible)}")
+        instead = "; the figures are of where the flanks touch first" if found.mesh.path is None else ""
+        flags = ", ".join(found.impossible)
+        lines.append(f"bodies cannot make this contact everywhere from begin to end: {flags}{instead}")
     lines += [f"{name:<34} {', '.join(filter(None, values))}" for name, *values in _rows(found, contents)]
     lines += _certified(contents.get("certificate"))
     if contents["room"]:
@@ -258,6 +266,7 @@ def _rows(found, contents):
         ("contact begins at", *_at(contents["begin"])),
         ("contact ends at", *_at(contents["end"])),
         ("contact ratio", shown(contents["contact_ratio"])),
+        *_by_sections(contents),
         ("teeth in contact, over one pitch", shown(average["over_one_pitch"])),
         ("teeth in contact, begin to end", shown(average["begin_to_end"])),
         ("transmission error of a pair", _arcsec(error["pair_peak_to_peak_arcsec"], "peak to peak"), _constant(found)),
@@ -268,8 +277,25 @@ def _rows(found, contents):
         ("pairs change at", *_change(found)),
         ("vertex at", shown(error["vertex_deg"], "deg")),
         ("backlash", _arcsec(contents["backlash_arcsec"], "of the wheel"), _backlash(found)),
+        *_lengths(contents["backlash_mm"]),
         *_efficiency_rows(contents["efficiency"]),
     ]  # fmt: skip
+
+
+def _by_sections(contents):
+    """Parts of the contact ratio of flanks that touch along lines, on parallel axes."""
+    if contents["transverse_contact_ratio"] is None:
+        return []
+    keys = (("  transverse", "transverse_contact_ratio"), ("  overlap", "overlap_ratio"))
+    return [(name, shown(contents[key], "", RATIO_ROUND_OFF)) for name, key in keys]
+
+
+def _lengths(found):
+    """Backlash as a length, on parallel axes."""
+    if found["transverse"] is None:
+        return []
+    names = (("  on the pitch circles", "transverse"), ("  along the normal", "normal"))
+    return [(name, shown(found[key], "mm")) for name, key in names]
 
 
 def _efficiency_rows(found):

@@ -49,8 +49,7 @@ def run(options):
         write_text("-", _table(summary, options.out))
     else:
         write_json(options.json or "-", {"schema": "meshwright.sweep/1", **summary})
-    along_a_line = summary["points_by_status"].get("line_contact", 0)
-    return 0 if summary["points_converged"] + along_a_line == summary["points"] else 1
+    return 0 if summary["points_touching"] == summary["points"] else 1
 
 
 def _table(summary, folder):

@@ -1,9 +1,10 @@
 """Tooth contact analysis: contact point, transmission error and ellipse over the pinion angle.
 
-Where the blank bounds the flanks, also where the two flanks touch first: at that point, on an edge or at a corner. Exit
-status 1 if a point has no contact, or one that bodies cannot make; contact along a line is a result.
+Where the blank bounds the flanks, also where the two flanks touch first: at that point, along a line, on an edge or at
+a corner, each of which is a result. Exit status 1 if the flanks do not touch at an angle, or as bodies cannot.
 """
 
+import math
 import sys
 
 import numpy as np
@@ -15,6 +16,7 @@ from meshwright.commands.progress import progress
 from meshwright.contact.flags import not_first
 from meshwright.contact.friction import efficiency
 from meshwright.contact.velocities import velocities
+from meshwright.cycle.first_contact import Search
 
 #: More directions than this are taken for a mistake.
 MOST_DIRECTIONS = 36_000
@@ -24,6 +26,9 @@ RESOLVED = 1e-4
 
 #: A bound on that overlap above this, mm, says nothing: tooth depths are of its order.
 MEANINGFUL = 1.0
+
+#: Status words of contacts that no tangency is.
+ON_EDGES = ("edge_contact", "corner_contact")
 
 #: Contact points nearer than this are one, mm.
 SAME_POINT = 1e-5
@@ -88,7 +93,7 @@ def run(options):
     if options.csv:
         write_csv(options.csv, *_columns(points))
     if not options.json and not options.csv:
-        write_text("-", f"{_table(drive, points)}{certificates.said()}\n")
+        write_text("-", f"{_table(drive, points)}{_not_aligned(drive, points)}{certificates.said()}\n")
     return 0 if result.complete else 1
 
 
@@ -125,7 +130,7 @@ def _add_contours(points, drive, result, count):
             patch = contour(drive, angle, count, result=result)
             point["contour"] = [] if patch is None else _radii(patch)
             if point["status"] == "line_contact":
-                point["contact_line_mm"] = _line(drive, result, angle)
+                point["contact_line_mm"] = point["contact_line"]["points_mm"] if point["contact_line"] else []
 
 
 def _add_other_contacts(points, drive, result):
@@ -136,14 +141,6 @@ def _add_other_contacts(points, drive, result):
             found = drive.contacts(angle).relative_to(result.reference_error)
             same = np.linalg.norm(found.points - result.points[k], axis=1) < SAME_POINT
             point["other_contacts"] = [c for c, known in zip(found.to_points(), same, strict=True) if not known]
-
-
-def _line(drive, result, angle):
-    from meshwright.contact.contact_line import contact_line
-
-    mirror = drive.design.mirror
-    start = result.solutions[int(np.argmin(np.abs(result.angles - angle)))]
-    return (contact_line(drive, mirror.sign * angle, start).points * mirror.flip).tolist()
 
 
 def _radii(patch):
@@ -165,10 +162,12 @@ def _flat(point):
     for key, value in point.items():
         if isinstance(value, dict):
             flat |= {f"{key}.{inner}": v for inner, v in _flat(value).items()}
-        elif key in ("contour", "contact_line_mm"):
+        elif key in ("contour", "contact_line", "contact_line_mm"):
             continue
         elif key == "other_contacts":
             flat[key] = len(value)
+        elif key == "edges":
+            flat[key] = ", ".join(value)
         elif key in ("flags", "limits", "impossible") and isinstance(value, list):
             flat[key] = " ".join(value)
         elif isinstance(value, list):
@@ -192,9 +191,48 @@ def _table(drive, points):
             f"{_cell(point['transmission_error_arcsec'], '13.5f')} "
             f"{_cell(point['transmission_error_relative_arcsec'], '11.5f')} "
             f"{_cell(axes['semi_major_mm'], '9.3f')} {_cell(axes['semi_minor_mm'], '9.4f')}  "
-            f"{' '.join([point['status'], *point['flags'], *_others(point), *_efficiency(point), *_shown(point)])}"
+            f"{' '.join([point['status'], *point['flags'], *_remarks(point)])}"
         )
     return "\n".join(lines) + "\n"
+
+
+def _not_aligned(drive, points):
+    """Which errors of the assembly are given where flanks touch on edges or at corners; nothing elsewhere."""
+    count = sum(point["status"] in ON_EDGES for point in points)
+    if not count:
+        return ""
+    errors = {key: value for key, value in drive.design.given().get("misalignment", {}).items() if value}
+    given = ", ".join(f"{key} = {value:g}" for key, value in errors.items())
+    said = [f"on an edge or at a corner at {count} of {len(points)} angles"]
+    if math.isfinite(rise := _out_of_line(drive, points)):
+        said.append(f"from one end of the contact line to the other the flanks are out of line by {1000 * rise:.3g} µm")
+    said.append(f"errors of the assembly: {given}" if given else "the assembly has no errors")
+    return "; ".join(said) + "\n"
+
+
+def _out_of_line(drive, points):
+    """The most by which flanks that touch on edges stand apart along what would be their line of contact, mm; NaN where
+    they have none, or touch in points.
+    """
+    search, _ = Search.of(drive)
+    angles = np.radians([point["pinion_angle_deg"] for point in points if point["status"] in ON_EDGES])
+    own = drive.design.mirror.sign * angles
+    if search is None or not search.flank.pointless:
+        return math.nan
+    rises = [search.rise(*at) for at in zip(own, search.at(own), strict=True)]
+    return max((rise for rise in rises if math.isfinite(rise)), default=math.nan)
+
+
+def _remarks(point):
+    return *_touching(point), *_others(point), *_efficiency(point), *_shown(point)
+
+
+def _touching(point):
+    """A remark on the limits at which flanks touch on an edge or at a corner."""
+    found = point["first_contact"]
+    if point["status"] not in ON_EDGES or found is None:
+        return ()
+    return (f"({' on '.join(found['edges']) if found['kind'] == 'edge' else ' and '.join(found['edges'])})",)
 
 
 def _efficiency(point):

@@ -233,6 +233,7 @@ class _Points:
             },
             solutions=self.x[rows],
             outside_the_tips=~self.pointlike[rows] | ((bits & off_tip) != 0),
+            lines=(None,) * len(angles),
         )
 
 

@@ -21,8 +21,6 @@ LEAVING = 6
 
 #: An end of the line is known to this share of a step.
 EDGE = 1e-12
-SECTIONS = 40
-GOLDEN = 0.6180339887498949
 
 
 @dataclass(frozen=True)
@@ -55,49 +53,6 @@ def contact_line(drive, angle, start):
         body_points={b["name"]: observed[:, b["point"] : b["point"] + 3] for b in bodies},
         parameters={b["name"]: solutions[:, b["unknowns"]] for b in bodies},
     )
-
-
-def deepest(drive, angle, start):
-    """The limit functions at the point of the line through ``start`` that lies farthest inside them: (no,), in the
-    order of the drive's observation, NaN elsewhere.
-    """
-    equations = _Equations.of(drive, angle)
-    line, depths = _whole(equations, start)
-    k = int(np.argmax(depths))
-    x = line[k]
-    if 0 < k < len(line) - 1:
-        between = _summit(equations, x, line[k - 1], line[k + 1])
-        x = x if between is None or equations.margin(between) < depths[k] else between
-    observed = equations.observe(x)[0]
-    chosen = np.full(len(observed), np.nan)
-    chosen[list(equations.limits)] = observed[list(equations.limits)]
-    return chosen
-
-
-def _summit(equations, near, before, after):
-    """The deepest point between two points of the line about a third one, by golden section; None if the line is lost
-    between them.
-    """
-    border = equations.border(near)
-
-    def at(share):
-        return equations.corrected(before + share * (after - before), border)
-
-    def depth(share):
-        x = at(share)
-        return -np.inf if x is None else equations.margin(x)
-
-    low, high = 0.0, 1.0
-    first, second = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-    depths = depth(first), depth(second)
-    for _ in range(SECTIONS):
-        if depths[0] > depths[1]:
-            high, second, first = second, first, second - GOLDEN * (second - low)
-            depths = depth(first), depths[0]
-        else:
-            low, first, second = first, second, first + GOLDEN * (high - first)
-            depths = depths[1], depth(second)
-    return at(0.5 * (low + high))
 
 
 def _whole(equations, start):

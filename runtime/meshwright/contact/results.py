@@ -1,6 +1,6 @@
 """What a tooth contact analysis returns: arrays in inner units (mm, rad), one row a point."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 import numpy as np
@@ -13,8 +13,11 @@ ARCSEC = np.pi / 648000.0
 #: Status words of points that have numbers.
 SOLVED = ("converged",)
 
-#: Status words of angles at which the flanks touch, at a point or along a line.
-TOUCHING = ("converged", "line_contact")
+#: Status words of angles at which the bounded flanks touch: at a point, along a line, on an edge or at a corner.
+TOUCHING = ("converged", "line_contact", "edge_contact", "corner_contact")
+
+#: Those at which they touch with more than an edge.
+ON_FLANKS = ("converged", "line_contact")
 
 #: Flag of points beyond the tip of a member.
 OFF_TIP = "off_tip"
@@ -36,7 +39,10 @@ class TCA:
     wheel's. Where a point has no contact the numbers are NaN; ``error`` remains for line contact.
     ``reference_error`` is the transmission error at the reference angle. ``solutions`` (N, nx) are the unknowns of
     the right-hand model in its own order, NaN where there is no solution. ``outside_the_tips`` says which points have
-    no contact within the tips of both members: (N,) of bool.
+    no contact within the tips of both members: (N,) of bool. On an edge and at a corner ``points``, ``normals``,
+    ``body_points`` and the wheel's lever are those there, and what belongs to a tangency is NaN. ``lines``: the
+    :class:`~meshwright.cycle.first_contact.TouchingLine` along which the flanks, or an edge and a flank, touch, else
+    None.
     """
 
     angles: np.ndarray
@@ -61,6 +67,7 @@ class TCA:
     margins: dict[str, np.ndarray]
     solutions: np.ndarray
     outside_the_tips: np.ndarray
+    lines: tuple
 
     @property
     def relative_error(self):
@@ -78,9 +85,29 @@ class TCA:
             return np.ones(len(self.status), dtype=bool)
         return np.array([s in SOLVED for s in self.status], dtype=bool)
 
+    def only(self, rows):
+        """The points of some rows, (N,) of bool or their numbers."""
+        return replace(self, **{name: _chosen(getattr(self, name), rows) for name in self._columns})
+
+    def with_rows(self, rows, others):
+        """The same, but in rows (R,), by number, the points of another one, and with a reference error where it has
+        none.
+        """
+        error = _put(self.error, rows, others.error)
+        known, reference = np.flatnonzero(np.isfinite(error)), self.reference_error
+        if not np.isfinite(reference) and known.size:
+            reference = float(error[known[np.argmin(np.abs(self.angles[known]))]])
+        columns = {name: _put(getattr(self, name), rows, getattr(others, name)) for name in self._columns}
+        return replace(self, reference_error=reference, **columns)
+
+    @property
+    def _columns(self):
+        """Names of what has an entry for every point."""
+        return [f.name for f in fields(self) if f.name not in ("reference_error", "units")]
+
     @property
     def complete(self):
-        """Whether every point has a contact, at a point or along a line, that bodies can make."""
+        """Whether at every point the flanks touch as bodies can."""
         return all(word in TOUCHING for word in self.status) and not any(
             impossible(f) for flags in self.flags for f in flags
         )
@@ -110,6 +137,7 @@ class TCA:
             messages=words(self.messages, message),
             iterations=np.where(rows, 0, self.iterations),
             flags=words(self.flags, ()),
+            lines=words(self.lines, None),
             reference_error=float(nearest),
             **{name: only(getattr(self, name)) for name in arrays},
             **{name: {key: only(values) for key, values in getattr(self, name).items()} for name in groups},
@@ -169,7 +197,31 @@ class TCA:
             "lever_arms_mm": {name: finite_or_none(arms[k]) for name, arms in self.lever_arms.items()},
             "instantaneous_ratio": finite_or_none(self.instantaneous_ratio[k]),
             "flags": list(self.flags[k]),
+            "contact_line": None if self.lines[k] is None else self.lines[k].plain(),
         }
+
+
+def _chosen(column, rows):
+    """Rows of a column of a TCA: an array, a tuple, or a dictionary of those."""
+    if isinstance(column, dict):
+        return {key: _chosen(values, rows) for key, values in column.items()}
+    if isinstance(column, tuple):
+        return tuple(column[k] for k in np.arange(len(column))[rows])
+    return column[rows]
+
+
+def _put(column, rows, values):
+    """A column of a TCA with other values in some rows."""
+    if isinstance(column, dict):
+        return {key: _put(old, rows, values[key]) for key, old in column.items()}
+    if isinstance(column, tuple):
+        new = list(column)
+        for k, value in zip(rows, values, strict=True):
+            new[k] = value
+        return tuple(new)
+    new = np.array(column)
+    new[rows] = values
+    return new
 
 
 def _row(values):

@@ -111,9 +111,18 @@ QUANTITIES = {
     "crowning": "a flank that stands back towards its ends or edges, so that contact is a point inside it: keys of "
     "designs, `meshwright drives` lists them",
     "ease_off": "how far a flank stands back from the surface that its mate would envelop at a constant ratio",
-    "first_contact": "where the bounded flanks, edges included, meet first as the wheel turns towards the pinion",
+    "first_contact": "where the bounded flanks, edges included, meet first as the wheel turns towards the pinion: in a "
+    "point inside both (tangency), along a line, on an edge or at a corner",
+    "edges": "which edges of the teeth hold a place of first contact; a face has a left and a right end, the right one "
+    "at larger z of its member, or a toe and a heel",
+    "contact_line": "the line along which flanks, or an edge and a flank, touch: its points, what ends it, its length",
+    "curvature_per_mm": "relative curvature of the flanks across the line of contact, at each of its points",
+    "transverse_contact_ratio": "over how many pitches a section of a pair across parallel axes touches",
+    "overlap_ratio": "what the helix adds to the transverse contact ratio of flanks that touch along lines",
+    "backlash_mm": "backlash as a length, on parallel axes: transverse, on the working pitch circles, and normal, "
+    "along the line of action",
     "overlap": "how deep an edge would stand in the other flank at the tangency, had it not touched before",
-    "kind": "of a first contact: tangency, edge or corner; of a branch point: fold, crossing or pitchfork",
+    "kind": "of a first contact: tangency, line, edge or corner; of a branch point: fold, crossing or pitchfork",
     "turned_back": "how far the wheel is turned back from contact while nothing is shown to touch on the way",
     "ended_by_limits": "whether the part of a flank that was looked at ends at the limits of the design",
     "unresolved": "overlap that the search for first contact could have missed",
@@ -146,7 +155,12 @@ QUANTITIES = {
     "loaded_transmission_error": "transmission error of elastic teeth under the torque given",
     "load_share": "part of the force that one pair carries",
     "mesh_stiffness": "force along the normals over the approach of the flanks, at the torque given",
-    "peak_pressure": "largest contact pressure of a pair",
+    "peak_pressure": "largest contact pressure of a pair; at an edge of a flank as sharp as the cells of the method",
+    "peak_at_edge": "the largest pressure of a pair is at an edge of a flank, where it rises without limit as cells "
+    "get finer, if the mate goes on beyond the edge; force and share hold",
+    "not_resolved": "of loaded contact: pressure is left at a free border of the cells, finer ones go on changing "
+    "the result, or no line carries the force with so low a peak; the message says which, and there are no figures",
+    "rotation_not_small": "of loaded contact: the torque turns the member too far for linear elasticity",
     "misalignment": "errors of the assembly, keys of [misalignment]; the contact is solved with them as they are",
     "sensitivity": "how much a result changes for a unit of a key, by exact derivatives",
     "drawing_data": "what the drawings of the members and of their assembly state of the nominal design",

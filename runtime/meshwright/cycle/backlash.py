@@ -11,6 +11,9 @@ from meshwright.cycle.transmission import ROUND_OFF, envelopes
 #: Samples of one pitch.
 SAMPLES = 64
 
+#: The same where each takes a search for first contact of several pairs.
+SEARCHED = 8
+
 
 def backlash(drive):
     """Smallest wheel angle from contact on one flank to contact on the other over one pitch, rad.
@@ -22,13 +25,13 @@ def backlash(drive):
         return math.nan
     one, other = _both_flanks(drive)
     here = Mesh.of(one)
-    if here.window.path is None:
+    if here.contact is None:
         return math.nan
     there = Mesh.of(other)
-    if there.window.path is None:
+    if there.contact is None:
         return math.nan
     complete = here.window.complete and there.window.complete
-    angles = np.arange(SAMPLES) / SAMPLES * drive.pitch() if complete else np.zeros(1)
+    angles = np.arange(_samples(here, there)) / _samples(here, there) * drive.pitch() if complete else np.zeros(1)
     pinion, wheel = _offsets(here, there)
     play = here.sense * (_stops(there, angles + pinion) + wheel - _stops(here, angles))
     tooth = drive.pitch() * drive.ratio
@@ -51,8 +54,17 @@ def _both_flanks(drive):
     return right, right.with_(flank=next(w for w in words if w != drive.design.tables["flank"]))
 
 
+def _samples(*meshes):
+    """Samples of one pitch: fewer where each takes searches, one where all are alike."""
+    if all(mesh.path is not None for mesh in meshes):
+        return SAMPLES
+    return 1 if all(mesh.constant for mesh in meshes) else SEARCHED
+
+
 def _stops(mesh, angles):
     """Wheel angles at which the flanks touch, of the pair that stops the wheel: (N,)."""
+    if mesh.path is None and mesh.rigid is not None:
+        return mesh.drive.ratio * angles + mesh.rigid.transmitted(angles)
     found = envelopes(mesh, angles)
     return mesh.drive.ratio * angles + (found.upper if mesh.sense > 0 else found.lower)
 

@@ -12,6 +12,6 @@ def edge_window(drive):
     """Smaller and larger pinion angle, rad, of a pair that runs on an edge; None if it does not, or has no ends."""
     mesh = Mesh.of(drive)
     window = mesh.window
-    if window.path is None or not window.complete or not rides_on_edge(mesh):
+    if mesh.path is None or not window.complete or not rides_on_edge(mesh):
         return None
     return tuple(sorted((window.begin.angle, window.end.angle)))

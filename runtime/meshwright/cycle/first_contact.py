@@ -3,15 +3,20 @@
 A tangency satisfies the equations of contact, but the flanks may touch before it: on an edge or at a corner. Every
 point of the wheel's bounded flank, turned about the wheel's axis, meets the pinion's flank at one wheel angle; the
 extreme of these over what both limits leave is the first contact. C searches a mesh of the wheel's region for it.
+Where the extreme is one value all along a curve, the flanks touch along that line.
 """
 
+from __future__ import annotations
+
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from meshwright.base.library import ffi, library, pointer
+from meshwright.base.plain import finite_or_none
 from meshwright.contact.placement import placed, placements_at
+from meshwright.contact.results import SOLVED
 from meshwright.flank.bounds import OPEN
 from meshwright.flank.mesh import mesh
 from meshwright.flank.model import DriveModel
@@ -31,14 +36,43 @@ ANGLES, PITCHES, BEYOND = 9, 0.5, 4.0
 #: Which of the known contacts, by distance in angle, the search starts from until one leads to the angle asked for.
 STARTS = (0, 1, 2, 4, 8, 16, 32)
 
-#: Searches that come to the angle and find places, but no extreme of them, before it is given up.
+#: Searches that come to the angle and find places, but no extreme of them, or no place, before it is given up.
 SEARCHES = 2
 
-#: What stands for a first contact where the flanks meet, but a search for their extreme ends nowhere.
-UNKNOWN = object()
+#: What stands for the ridge as a start; over how many pitches it is followed from where it is known.
+RIDGE = object()
+RIDGE_REACH = 0.5
 
-#: Steps from the aligned drive.
-LEAD = 12
+#: What stands for a first contact where the flanks meet, but a search for their extreme ends nowhere; and where flanks
+#: meet that nothing ends.
+UNKNOWN, OPEN_ENDED = object(), object()
+
+#: Status words of first contacts by their kinds.
+STATUSES = {"tangency": "converged", "line": "line_contact", "edge": "edge_contact", "corner": "corner_contact"}
+
+#: A place further inside the other flank than this, mm, where flanks touch along a line, is before it.
+OVERLAP = 1e-9
+
+#: Flanks that stand apart by no more than this all along a curve, mm along the normal, touch along it; the last places
+#: of a position, which rounding takes, included.
+FLAT = 1.001e-9
+
+#: The share of that which is left on the level part of a curve that falls off at its ends.
+LEVEL = 0.01
+
+#: Steps along a curve, in natural sizes: one to either side to see whether it is level at all, and those along it.
+NEAR = 0.05
+STEP = 0.125
+
+#: Most steps to either side, and the fewest points that show where a curve is level.
+POINTS = 240
+LEAST_LEVEL = 5
+
+#: Chords of less than this share of a line say nothing of how it bends.
+SHORT = 1e-4
+
+#: Where the geometry in an observation has the larger principal curvature of the gap.
+LARGER_CURVATURE = 16
 
 #: Steps of the pinion from an angle at which a contact is known, per pitch.
 STEPS_PER_PITCH = 24
@@ -48,22 +82,32 @@ STEPS_PER_PITCH = 24
 class FirstContacts:
     """First contacts at N pinion ``angles`` (rad), with the design's hand; NaN and None where there is none.
 
-    ``kinds``: "tangency", "edge" or "corner"; ``members``: whose limit holds the place, "both" for two edges that
-    cross, None for a tangency; ``limits``: the events. ``errors`` (N,): transmission error, rad. ``points``,
-    ``normals`` (N, 3) (out of the pinion), fixed frame; ``levers`` (N,), mm of normal approach per rad of the wheel.
-    ``unresolved`` (N,): a place that the search could have missed overlaps by this at most, mm; infinite where flanks
-    meet whose first contact was not found. ``reason``: why there is none anywhere, or "".
+    ``kinds``: "tangency", "line", "edge" or "corner"; ``members``: whose limit holds the place, "both" for two edges
+    that cross, None for a tangency and a line; ``limits``: the events, ``holders`` the members whose they are, and
+    ``edges`` their words, which tell the ends of a face: left and right (at larger z of its member), or toe and heel.
+    ``errors`` (N,): transmission error, rad. ``points``, ``normals`` (N, 3) (out of the pinion's flank), fixed frame,
+    of a line those in its middle; ``levers`` (N,), mm of normal approach per rad of the wheel; ``solutions`` (N, nx),
+    the unknowns of contact there, right hand, which solve its equations at a tangency alone. ``lines``: the
+    :class:`TouchingLine` along which flanks, or an edge and a flank, touch, else None. ``unresolved`` (N,): a place
+    that the search could have missed overlaps by this at most, mm; infinite where flanks meet whose first contact was
+    not found. ``untouched`` (N,) of bool: where no turn of the wheel brings the bounded flanks together. ``reason``:
+    why there is none anywhere, or "".
     """
 
     angles: np.ndarray
     kinds: tuple[str | None, ...]
     members: tuple[str | None, ...]
     limits: tuple[tuple[str, ...], ...]
+    holders: tuple[tuple[str, ...], ...]
+    edges: tuple[tuple[str, ...], ...]
     errors: np.ndarray
     points: np.ndarray
     normals: np.ndarray
     levers: np.ndarray
+    solutions: np.ndarray
+    lines: tuple[TouchingLine | None, ...]
     unresolved: np.ndarray
+    untouched: np.ndarray
     reason: str = ""
 
     def overlaps(self, errors):
@@ -75,10 +119,12 @@ class FirstContacts:
 
     def words(self, k):
         """First contact k in words, such as "edge of the wheel (face)"; "" if there is none."""
-        if self.kinds[k] in (None, "tangency"):
+        if self.kinds[k] in (None, "tangency", "line"):
             return self.kinds[k] or ""
-        whose = "both members" if self.members[k] == "both" else f"the {self.members[k]}"
-        return f"{self.kinds[k]} of {whose} ({', '.join(self.limits[k])})".replace("_", " ")
+        if self.members[k] == "both":
+            pairs = zip(self.edges[k], self.holders[k], strict=True)
+            return " on ".join(f"{edge} of the {member}" for edge, member in pairs)
+        return f"{self.kinds[k]} of the {self.members[k]} ({', '.join(self.edges[k])})"
 
     def point(self, k, errors):
         """The entry ``first_contact`` of point k of a TCA with transmission errors (N,), rad; None if there is none."""
@@ -89,6 +135,7 @@ class FirstContacts:
             "kind": self.kinds[k],
             "member": self.members[k],
             "limits": list(self.limits[k]),
+            "edges": [f"{edge} of the {member}" for edge, member in zip(self.edges[k], self.holders[k], strict=True)],
             "point_mm": self.points[k].tolist(),
             "transmission_error_arcsec": float(np.degrees(self.errors[k]) * 3600.0),
             "overlap_mm": float(overlap) if math.isfinite(overlap) else None,
@@ -99,25 +146,17 @@ class FirstContacts:
 def first_contacts(drive, angles, result=None):
     """:class:`FirstContacts` at pinion angles (N,), rad. ``result``: a TCA of the same angles, if there is one."""
     result = drive.tca(angles) if result is None else result
-    mirror = drive.design.mirror
-    found = [None] * len(angles)
-    search, reason = _Search.of(drive, mirror.sign * result.angles, result.solutions)
-    if search is not None:
-        found = search.at(mirror.sign * np.asarray(angles))
-    return _gathered(drive, np.asarray(angles, dtype=float), found, reason)
+    search, reason = Search.of(drive, drive.design.mirror.sign * result.angles, result.solutions)
+    angles = np.asarray(angles, dtype=float)
+    if search is None:
+        return _gathered(drive, angles, [OPEN_ENDED] * len(angles), [None] * len(angles), reason)
+    return search.first(angles)
 
 
 def first_contact_of(mesh):
     """Function of a pair's own pinion angles (N,), rad, to :class:`FirstContacts`; None if there is no search."""
     search = mesh.search
-    if search is None:
-        return None
-
-    def contacts(angles):
-        angles = np.atleast_1d(np.asarray(angles, dtype=float))
-        return _gathered(mesh.drive, angles, search.at(mesh.mirror * angles), "")
-
-    return contacts
+    return None if search is None else lambda angles: search.first(np.atleast_1d(np.asarray(angles, dtype=float)))
 
 
 def pair_errors(mesh):
@@ -138,77 +177,134 @@ def pair_errors(mesh):
 
 
 def _wheel_turn(found):
-    if found is None:
+    if found is None or found is OPEN_ENDED:
         return math.nan
     return math.inf if found is UNKNOWN else found.wheel_turn
 
 
 def search_from(drive, path):
-    """What :func:`first_contact_of` and :func:`pair_errors` search with, from the contacts of a path; None without one,
-    or where the blank does not bound the flanks.
+    """What :func:`first_contact_of` and :func:`pair_errors` search with, from the contacts of a path, if there is one;
+    None where the blank does not bound the flanks.
     """
-    return None if path is None else _Search.of(drive, path.angles, path.unknowns)[0]
+    return Search.of(drive)[0] if path is None else Search.of(drive, path.angles, path.unknowns)[0]
 
 
-def _gathered(drive, angles, found, reason):
-    unknown = np.array([f is UNKNOWN for f in found], dtype=bool)
-    found = [None if f is UNKNOWN else f for f in found]
+def _gathered(drive, angles, found, lines, reason=""):
+    """First contacts ``found`` at angles (N,), with their ``lines``."""
+    unknown, untouched = (np.array([f is what for f in found], dtype=bool) for what in (UNKNOWN, None))
+    found = [None if f in (None, UNKNOWN, OPEN_ENDED) else f for f in found]
     mirror, nothing = drive.design.mirror, np.full(3, np.nan)
     bodies = drive.design.description["bodies"]
-    kinds, members, limits = zip(*(_held(bodies, f) for f in found), strict=True) if len(found) else ((), (), ())
+    named = [_held(bodies, f, line) for f, line in zip(found, lines, strict=True)]
+    kinds, members, limits, holders = zip(*named, strict=True) if named else ((), (), (), ())
+    shown = [f if line is None else line.middle for f, line in zip(found, lines, strict=True)]
 
-    def column(of, missing=math.nan):
-        return np.array([missing if f is None else of(f) for f in found])
+    def column(of, missing=math.nan, at=shown):
+        return np.array([missing if f is None else of(f) for f in at])
 
     return FirstContacts(
         angles=angles,
         kinds=kinds,
         members=members,
         limits=limits,
+        holders=holders,
+        edges=_edges(drive, shown, holders, limits),
         errors=mirror.sign * column(lambda f: f.wheel_turn),
         points=mirror.flip * column(lambda f: np.array(list(f.point)), nothing).reshape(-1, 3),
         normals=mirror.flip * column(lambda f: np.array(list(f.normal)), nothing).reshape(-1, 3),
         levers=mirror.sign * column(lambda f: f.lever),
-        unresolved=np.where(unknown, np.inf, column(lambda f: f.unresolved)),
+        solutions=np.array([np.full(drive.model.nx, np.nan) if f is None else _unknowns(drive, f) for f in shown]),
+        lines=tuple(line if line is None else line.mirrored(mirror) for line in lines),
+        unresolved=np.where(unknown, np.inf, column(lambda f: f.unresolved, at=found)),
+        untouched=untouched,
         reason=reason,
     )
 
 
-def _held(bodies, found):
-    """Kind, member and limits of a place."""
+def _held(bodies, found, line=None):
+    """Kind, member, limits and whose they are of a place, or of a line through it."""
     if found is None:
-        return None, None, ()
+        return None, None, (), ()
+    if line is not None:
+        found = line.middle
     held = [(found.member[k], found.limit[k]) for k in (0, 1) if found.limit[k] >= 0]
-    names = tuple("undercut" if i == 0 else bodies[m]["margins"][i - 1]["event"] for m, i in held)
+    names, whose = tuple(_event(bodies, *which) for which in held), tuple(bodies[m]["name"] for m, _ in held)
     if not held:
-        return "tangency", None, ()
+        return "tangency" if line is None else "line", None, names, whose
     if len(held) == 1:
-        return "edge", bodies[held[0][0]]["name"], names
+        return "edge", whose[0], names, whose
     if held[0][0] == held[1][0]:
-        return "corner", bodies[held[0][0]]["name"], names
-    return "edge", "both", names
+        return "corner", whose[0], names, whose
+    return "edge", "both", names, whose
+
+
+def _edges(drive, places, holders, limits):
+    """Words for the limits that hold places, which tell the two ends of a face."""
+    if not any("face" in names for names in limits):
+        return tuple(tuple(name.replace("_", " ") for name in names) for names in limits)
+    bodies = {body["name"]: body for body in drive.design.description["bodies"]}
+    (middle,) = start_values(drive, np.array([drive.design.reference_angle]))
+
+    def edge(place, member, name):
+        margin = next((m for m in bodies[member]["margins"] if m["event"] == name), None)
+        if margin is None or margin["role"] != "face":
+            return name.replace("_", " ")
+        own = bodies[member]["unknowns"]
+        both = drive.flank(member)(np.stack([_unknowns(drive, place)[own], middle[own]]))
+        there, here = both.points * drive.design.mirror.flip
+        if margin.get("ends"):
+            return margin["ends"][int(np.linalg.norm(there) > np.linalg.norm(here))]
+        return ("left face", "right face")[int(there[2] > here[2])]
+
+    named = zip(places, holders, limits, strict=True)
+    return tuple(tuple(edge(p, *which) for which in zip(whose, names, strict=True)) for p, whose, names in named)
+
+
+def _event(bodies, member, limit):
+    return "undercut" if limit == 0 else bodies[member]["margins"][limit - 1]["event"]
 
 
 @dataclass(frozen=True)
 class SearchedFlank:
-    """A mesh over the wheel's bounded flank: a ``table`` for C, of arrays that are ``kept`` with it."""
+    """A mesh over the wheel's bounded flank: a ``table`` for C, of arrays that are ``kept`` with it. ``solutions``
+    (P, nx) of contacts in the middle, or the places from which they are sought, at ``angles`` (P,), right hand;
+    ``pointless``: none of them is a contact in a point; ``extent``: longest side of a box about the flank, mm;
+    ``found``: first contacts by angle, ``ridges``: depths and deepest places of the ridge of the wheel's turn.
+    """
 
     table: object
     kept: tuple
+    angles: np.ndarray
+    solutions: np.ndarray
+    pointless: bool
+    extent: float
+    found: dict = field(default_factory=dict, repr=False)
+    ridges: dict = field(default_factory=dict, repr=False)
 
     @classmethod
-    def of(cls, drive, unknowns):
-        """Of the flank that contacts (P, nx) use; None if no part of it lies within its limits."""
-        pinion, wheel = (body["name"] for body in drive.design.description["bodies"])
-        uses = Uses.of(drive, unknowns, beyond=BEYOND)
-        whole = region(drive, wheel, "flank", uses)
-        triangles = mesh(whole, CELLS)
-        if not len(triangles.triangles):
-            return None
+    def of(cls, drive):
+        """Of the flank about the contacts in the middle or, where there is none, about the places from which contact is
+        sought; None if no part of it lies within its limits.
+        """
+        here = drive.design.reference_angle + np.linspace(-PITCHES, PITCHES, ANGLES) * drive.pitch()
+        known, words = drive.trace(here)
+        sought = start_values(drive, here)
+        for used in (known, sought):
+            solved = np.isfinite(used).all(axis=1)
+            found = _triangulated(drive, used[solved]) if solved.any() else None
+            if found is not None:
+                use = known if np.isfinite(known).any() else sought
+                solved = np.isfinite(use).all(axis=1)
+                return cls._of(found, here[solved], use[solved], not set(SOLVED) & set(words))
+        return None
+
+    @classmethod
+    def _of(cls, found, angles, solutions, pointless):
+        """Of the region, its triangles and the natural sizes of the pinion's parameters."""
+        whole, triangles, sizes = found
         names = np.array(whole.limits.names)
         open_ = np.zeros(len(triangles.points), dtype=np.uint8)
         open_[triangles.border[names[triangles.limit] == OPEN].ravel()] = 1
-        _, sizes = uses.on(drive.flank(pinion))
         kept = (
             np.ascontiguousarray(triangles.parameters), np.ascontiguousarray(triangles.triangles, dtype=np.int32),
             open_, np.ascontiguousarray(whole.chart.sizes), np.ascontiguousarray(sizes),
@@ -221,19 +317,81 @@ class SearchedFlank:
         for name, view in zip(names, views, strict=True):
             setattr(table, name, view)
         table.span = whole.chart.free
-        return cls(table, (kept, views))
+        extent = float(np.ptp(triangles.points, axis=0).max())
+        return cls(table, (kept, views), angles, solutions, pointless, extent)
 
 
-def about_the_middle(drive):
-    """Angles (N,), rad, and solutions (N, nx) there, right hand, that show where the flanks are."""
-    angles = np.linspace(-PITCHES, PITCHES, ANGLES) * drive.pitch()
-    return angles, drive.trace(angles)[0]
+def _triangulated(drive, unknowns):
+    """The wheel's region about contacts (P, nx), its triangles and natural sizes of the pinion's parameters; None if no
+    part of it lies within its limits.
+    """
+    pinion, wheel = (body["name"] for body in drive.design.description["bodies"])
+    uses = Uses.of(drive, unknowns, beyond=BEYOND)
+    whole = region(drive, wheel, "flank", uses)
+    triangles = mesh(whole, CELLS)
+    return (whole, triangles, uses.on(drive.flank(pinion))[1]) if len(triangles.triangles) else None
+
+
+def start_values(drive, angles):
+    """Where contact is sought in the middle of the flanks at angles (N,) of the right-hand drive: unknowns (N, nx)."""
+    model, state = drive.design.model, drive.design.state.copy()
+    x = np.empty((len(angles), model.nx))
+    for row, angle in zip(x, angles, strict=True):
+        model.set_phi(pointer(state), angle)
+        library().mw_start_values(model, pointer(state), pointer(row))
+    return x
 
 
 @dataclass(frozen=True)
-class _Search:
-    """The wheel's ``flank`` and what the search starts from: ``solutions`` (N, nx) at angles ``solved_at``, and
-    ``lead``, placements of the bodies that lead there where only the aligned drive has a contact.
+class TouchingLine:
+    """The line along which flanks touch at a pinion ``angle`` (rad), or an edge touches a flank, from end to end.
+
+    ``places``: its points as C has them, M of ``mw_first``, right hand; ``points`` (M, 3), fixed frame, mm. ``ends``:
+    of either end the names of the member and of the limit that end it, None and "" where nothing does. ``curvatures``
+    (M,): relative curvature across the line, 1/mm, NaN along an edge.
+    """
+
+    angle: float
+    places: object
+    points: np.ndarray
+    ends: tuple[tuple[str | None, str], ...]
+    curvatures: np.ndarray
+
+    def __getstate__(self):
+        """What another process can be given: the points, without C's memory."""
+        return self.__dict__ | {"places": None}
+
+    @property
+    def middle(self):
+        """The place nearest to the middle of its length."""
+        along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(self.points, axis=0), axis=1))])
+        return self.places[int(np.argmin(np.abs(along - 0.5 * along[-1])))]
+
+    @property
+    def length(self):
+        """Length of the line, mm."""
+        return _arc_length(self.points)
+
+    def mirrored(self, mirror):
+        """The same by a :class:`~meshwright.design.mirror.Mirror`."""
+        return replace(self, angle=mirror.sign * self.angle, points=self.points * mirror.flip)
+
+    def plain(self):
+        """The entry ``contact_line`` of a TCA."""
+        ends = [(at, member, [limit] if limit else []) for at, (member, limit)
+                in zip(self.points[[0, -1]].tolist(), self.ends, strict=True)]  # fmt: skip
+        return {
+            "points_mm": self.points.tolist(),
+            "ends": [{"point_mm": at, "member": member, "limits": limits} for at, member, limits in ends],
+            "length_mm": self.length,
+            "curvature_per_mm": [finite_or_none(value) for value in self.curvatures],
+        }
+
+
+@dataclass(frozen=True)
+class Search:
+    """First contacts of a drive: the wheel's ``flank`` and what the search starts from: ``solutions`` (N, nx) at
+    angles ``solved_at``.
     """
 
     drive: DriveModel
@@ -241,81 +399,254 @@ class _Search:
     work: np.ndarray
     solutions: np.ndarray
     solved_at: np.ndarray
-    lead: tuple
     turn: float
     sense: float
 
     @classmethod
-    def of(cls, drive, angles, solutions):
+    def of(cls, drive, angles=(), solutions=()):
         """The search, or None and why there is none; solutions (N, nx) of contacts at angles (N,), right hand."""
-        here, about = about_the_middle(drive)
-        angles, solutions = np.concatenate([here, angles]), np.concatenate([about, solutions])
-        known, errors = np.isfinite(solutions).all(axis=1), None
-        if not known.any():
-            errors = drive.design.given().get("misalignment", {})
-            aligned = drive.with_(misalignment=dict.fromkeys(errors, 0.0))
-            solutions[:ANGLES] = aligned.trace(here)[0]
-            known = np.isfinite(solutions).all(axis=1)
-        if not known.any():
-            return None, "the flanks do not touch, not even aligned: there is nothing to start from"
-        known_about = known[:ANGLES]
-        used = solutions[:ANGLES][known_about] if known_about.any() else solutions[known]
+        flank = drive.searched_flank
+        if flank is None:
+            return None, "no part of the wheel's flank lies within its limits"
+        solutions = np.concatenate([flank.solutions, np.reshape(solutions, (len(angles), drive.model.nx))])
+        angles = np.concatenate([flank.angles, angles])
+        known = np.isfinite(solutions).all(axis=1)
         solutions, angles = solutions[known], angles[known]
         regular = _on_regular_flanks(drive, solutions)
         if regular.any():
             solutions, angles = solutions[regular], angles[regular]
-        shared = errors is None and known_about.any()
-        flank = drive.searched_flank if shared else SearchedFlank.of(drive, used)
-        if flank is None:
-            return None, "no part of the wheel's flank lies within its limits"
-        middle = int(np.argmin(np.abs(angles)))
-        turn, sense = _senses(drive, angles[middle], solutions[middle])
-        if errors is not None:
-            solutions, angles = solutions[middle : middle + 1], angles[middle : middle + 1]
-        lead = () if errors is None else _misaligned(drive, errors, angles)
-        work = np.empty(library().mw_first_contact_work(flank.table.vertices))
-        return cls(drive, flank, work, solutions, angles, lead, turn, sense), ""
+        at, here = (solutions, angles) if len(angles) else (start_values(drive, np.zeros(1)), np.zeros(1))
+        middle = int(np.argmin(np.abs(here)))
+        turn, sense = _senses(drive, here[middle], at[middle])
+        sizes = library().mw_first_contact_work(flank.table.vertices), library().mw_first_curve_work(POINTS)
+        work = np.empty(max(sizes))
+        return cls(drive, flank, work, solutions, angles, turn, sense), ""
 
     def at(self, angles, until=None):
-        """``mw_first``, None or UNKNOWN at angles (N,) of the right-hand drive; beyond the turn of the wheel ``until``,
-        perhaps of a later contact.
+        """``mw_first``, None, UNKNOWN or OPEN_ENDED at angles (N,) of the right-hand drive; beyond the turn of the
+        wheel ``until``, perhaps of a later contact.
         """
-        until = -self.sense * math.inf if until is None else until
-        design = self.drive.design
-        here = zip(*_placed(self.drive, angles), strict=True)
-        return [self._one(design.model, design.state, *both, until) for both in zip(angles, here, strict=True)]
+        if until is not None:
+            return [self._one(angle, until) for angle in angles]
+        known = self.flank.found
+        for angle in angles:
+            if float(angle) not in known:
+                known[float(angle)] = self._one(angle, -self.sense * math.inf)
+        return [known[float(angle)] for angle in angles]
 
-    def _one(self, compiled, state, angle, here, until):
-        """``mw_first`` at one angle, where the bodies stand ``here``: from the contact known nearest to it, else from
-        others.
+    def _one(self, angle, until):
+        """``mw_first`` at one angle: from a contact known there, the start values, other contacts and, where that is
+        known or no contact is one in a point, the ridge.
         """
-        order, searches = np.argsort(np.abs(self.solved_at - angle), kind="stable"), 0
-        for known in order[[i for i in STARTS if i < len(order)]]:
-            found = self._from(known, compiled, state, angle, here, until)
+        order = np.argsort(np.abs(self.solved_at - angle), kind="stable")
+        starts = [(self.solved_at[k], self.solutions[k]) for k in order[[i for i in STARTS if i < len(order)]]]
+        starts.insert(int(bool(starts) and starts[0][0] == angle), (angle, None))
+        ended, empty = 0, 0
+        ridge = [(angle, RIDGE)] if self.flank.pointless or self.flank.ridges else []
+        for known_at, x in (*starts, *ridge):
+            if x is RIDGE:
+                depth, place = self._ridge(float(angle))
+                if math.isnan(depth):
+                    break
+                x = _unknowns(self.drive, place)
+            elif SEARCHES in (ended, empty):
+                continue
+            found = self._from(known_at, start_values(self.drive, [angle])[0] if x is None else x, angle, until)
             if found.status >= 0:
                 return found
-            searches += found.met > 0
-            if found.status == library().MW_NO_CONTACT or searches == SEARCHES:
-                break
-        return UNKNOWN if searches and found.status == library().MW_DIVERGED else None
+            if found.open:
+                return OPEN_ENDED
+            nowhere = found.status == library().MW_NO_CONTACT
+            if nowhere and found.met:
+                return None
+            ended, empty = ended + (found.met > 0), empty + nowhere
+        return UNKNOWN if ended else None
 
-    def _from(self, known, compiled, state, angle, here, until):
-        away, x = angle - self.solved_at[known], self.solutions[known]
-        stand = [*self.lead, self._way(known, away) if away else [matrix[None] for matrix in here]]
-        pinion, wheel = (np.concatenate([p[k][:, :3].reshape(-1, 12) for p in stand]) for k in (0, 1))
+    def _from(self, known_at, x, angle, until):
+        pinion, wheel = self._way(known_at, angle - known_at)
         start = np.concatenate([x[b["unknowns"]] for b in self.drive.design.description["bodies"][::-1]])
         start = np.append(start, x[self.drive.design.description["error"]])
         found = ffi.new("mw_first *")
         library().mw_first_contact(
-            compiled, pointer(state), self.flank.table, pointer(pinion), pointer(wheel), len(pinion), self.turn,
+            *self._model, pointer(pinion), pointer(wheel), len(pinion), self.turn,
             self.sense, pointer(start), until, pointer(self.work), found,
         )  # fmt: skip
         return found
 
-    def _way(self, known, away):
-        """Placements from a known contact to an angle ``away`` from it."""
+    @property
+    def _model(self):
+        """The compiled model, the design's state and the wheel's flank, for C."""
+        return self.drive.design.model, pointer(self.drive.design.state), self.flank.table
+
+    def _way(self, known_at, away):
+        """Placements (M, 12) of both members from an angle to another one, ``away`` from it."""
         steps = 1 + math.ceil(abs(away) / self.drive.pitch() * STEPS_PER_PITCH - 1e-9)
-        return _placed(self.drive, self.solved_at[known] + away * (np.linspace(0.0, 1.0, steps) if steps > 1 else 1.0))
+        stand = _placed(self.drive, known_at + away * (np.linspace(0.0, 1.0, steps) if steps > 1 else 1.0))
+        return [np.ascontiguousarray(matrices[:, :3].reshape(-1, 12)) for matrices in stand]
+
+    def first(self, angles):
+        """:class:`FirstContacts` at pinion angles (N,), with the design's hand."""
+        own = self.drive.design.mirror.sign * angles
+        found = self.at(own)
+        return _gathered(self.drive, angles, found, self.lines(own, found))
+
+    def lines(self, angles, found):
+        """The :class:`TouchingLine` through each of ``found`` at angles (N,), None where there is none."""
+        without = (None, UNKNOWN, OPEN_ENDED)
+        return [None if f in without else self.line(angle, f) for angle, f in zip(angles, found, strict=True)]
+
+    def line(self, angle, found, flat=False):
+        """The :class:`TouchingLine` through a place, along which the wheel angle is one but for 1e-9 mm: of both
+        flanks, or of one of the edges that hold it; None if there is none. ``flat``: the equations of contact are
+        singular there, so that also a part of the curve can be one, where the flanks fall back from one another at its
+        ends.
+        """
+        borders = [(found.member[k], found.limit[k]) for k in (0, 1) if found.limit[k] >= 0]
+        for member, limit in ((0, -1), *borders):
+            closely = self._curve(angle, found, member, limit, NEAR, math.inf, 1)
+            if not len(closely) or _spread(closely) > FLAT:
+                continue
+            whole = self._curve(angle, found, member, limit, STEP, math.inf, POINTS)
+            whole_way = len(whole) > 1 and not _spread(whole) > FLAT
+            if flat and limit < 0 and not whole_way:
+                whole = self._curve(angle, found, member, limit, STEP, FLAT, POINTS)
+                whole_way = _level_inside(whole)
+            if whole_way:
+                return self._of_places(angle, whole, limit < 0)
+        return None
+
+    def rise(self, angle, found):
+        """How far the flanks stand apart at one end of the ridge of the wheel's turn while they touch at the other, mm;
+        NaN where no part of it lies on both.
+        """
+        ridge = self._curve(angle, found, 0, -1, STEP, math.inf, POINTS)
+        return _spread(ridge) if len(ridge) > 1 else math.nan
+
+    def of_solution(self, angle, x):
+        """The line of both flanks through a solution (nx,) at an angle, which may lie beyond them; None if there is
+        none.
+        """
+        return self.line(angle, self._place(x), flat=True)
+
+    def depth(self, angle):
+        """How deep inside the limits the ridge of the wheel's turn comes at an angle, in the unit of the limit that it
+        is nearest to, and (member, event) of that one and of another as near; NaN where no ridge is found.
+        """
+        depth, found = self._ridge(float(angle))
+        bodies = self.drive.design.description["bodies"]
+        held = [(found.member[k], found.limit[k]) for k in (0, 1) if found.limit[k] >= 0]
+        return depth, tuple((bodies[m]["name"], _event(bodies, m, limit)) for m, limit in held)
+
+    def _ridge(self, angle):
+        """Depth and place of the ridge at an angle: from the start values there or, where they do not lead to it, from
+        the nearest angle at which it is known.
+        """
+        known = self.flank.ridges
+        for at in () if angle in known else (self.drive.design.reference_angle, angle):
+            if at not in known:
+                depth, found = self._deepest(at, self._place(start_values(self.drive, [at])[0]))
+                if not math.isnan(depth):
+                    known[at] = depth, found
+        if angle in known or not known:
+            return known.get(angle, (math.nan, ffi.new("mw_first *", {"limit": (-1, -1)})))
+        near = min(known, key=lambda at: abs(at - angle))
+        share, (depth, found) = abs(angle - near) / self.drive.pitch(), known[near]
+        if share > RIDGE_REACH:
+            return math.nan, found
+        for at in np.linspace(near, angle, 1 + math.ceil(share * STEPS_PER_PITCH))[1:]:
+            depth, found = self._deepest(at, found)
+            if math.isnan(depth):
+                return depth, found
+        known[angle] = depth, found
+        return depth, found
+
+    def _deepest(self, angle, start):
+        """Depth and place of ``mw_first_deepest`` from another place at an angle."""
+        depth, found = ffi.new("double *", math.nan), ffi.new("mw_first *")
+        pinion, wheel = self._way(angle, 0.0)
+        library().mw_first_deepest(
+            *self._model, pointer(pinion), pointer(wheel), self.turn, self.sense, start, STEP, depth, found
+        )
+        return float(depth[0]), found
+
+    def _place(self, x):
+        """Unknowns (nx,) as a place for C."""
+        at = ffi.new("mw_first *")
+        pinion, wheel = self.drive.design.description["bodies"]
+        at.q_pinion[0 : len(pinion["unknowns"])] = x[pinion["unknowns"]].tolist()
+        at.q_wheel[0 : len(wheel["unknowns"])] = x[wheel["unknowns"]].tolist()
+        at.wheel_turn, at.limit = x[self.drive.design.description["error"]], (-1, -1)
+        return at
+
+    def _curve(self, angle, at, member, limit, step, fall, count):
+        """Places of the curve through one of them: see ``mw_first_curve``."""
+        pinion, wheel = self._way(angle, 0.0)
+        found = ffi.new("mw_first[]", 2 * count + 1)
+        known = library().mw_first_curve(
+            *self._model, pointer(pinion), pointer(wheel), self.turn,
+            self.sense, at, member, limit, step, fall, count, pointer(self.work), found,
+        )  # fmt: skip
+        kept = ffi.new("mw_first[]", known)
+        ffi.memmove(kept, found, ffi.sizeof(kept))
+        return kept
+
+    def _of_places(self, angle, places, across):
+        bodies = self.drive.design.description["bodies"]
+        ends = []
+        for place in (places[0], places[len(places) - 1]):
+            limited = place.limit[1] >= 0
+            member = place.member[1]
+            ends.append((bodies[member]["name"], _event(bodies, member, place.limit[1])) if limited else (None, ""))
+        points = np.array([list(place.point) for place in places])
+        curvatures = self._curvatures(angle, places) if across else np.full(len(points), np.nan)
+        return TouchingLine(float(angle), places, points, tuple(ends), curvatures)
+
+    def _curvatures(self, angle, places):
+        """Relative curvature of the flanks across the line at its places: (M,)."""
+        model = self.drive.design.model
+        x = np.array([_unknowns(self.drive, place) for place in places])
+        observed, angles = np.empty((len(x), model.no)), np.full(len(x), float(angle))
+        library().mw_observe(
+            model, pointer(self.drive.design.state.copy()), pointer(angles), pointer(x), len(x), pointer(observed)
+        )
+        return observed[:, model.geometry + LARGER_CURVATURE]
+
+
+def _unknowns(drive, place):
+    """Unknowns (nx,) of the contact at a place, right hand."""
+    description, x = drive.design.description, np.empty(drive.model.nx)
+    for body, own in zip(description["bodies"], (place.q_pinion, place.q_wheel), strict=True):
+        x[body["unknowns"]] = list(own)[: len(body["unknowns"])]
+    x[description["error"]] = place.wheel_turn
+    return x
+
+
+def _spread(places):
+    """How far the flanks stand apart somewhere on a curve while they touch elsewhere on it, mm along the normal."""
+    turns = [place.wheel_turn for place in places]
+    return (max(turns) - min(turns)) * abs(places[0].lever)
+
+
+def _level_inside(places):
+    """Whether a curve that falls off at its ends is level halfway to each of them."""
+    if len(places) < LEAST_LEVEL:
+        return False
+    quarter = len(places) // 4
+    return not _spread(places[quarter : len(places) - quarter]) > LEVEL * FLAT
+
+
+def _arc_length(points):
+    """Length of a smooth curve through points (M, 3): chords, and by how much arcs through three points are longer."""
+    chords = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    kept = np.concatenate([[True], chords > SHORT * chords.sum()])
+    points = points[kept]
+    before, after = (np.linalg.norm(d, axis=1) for d in (points[1:-1] - points[:-2], points[2:] - points[1:-1]))
+    if not len(before):
+        return float(chords.sum())
+    both = np.linalg.norm(points[2:] - points[:-2], axis=1)
+    bends = np.maximum(before + after - both, 0.0) / (3.0 * before * after * (before + after))  # curvature²/24
+    each = np.concatenate([bends[:1], 0.5 * (bends[1:] + bends[:-1]), bends[-1:]])
+    return float(chords.sum() + each @ np.concatenate([before[:1], after]) ** 3)
 
 
 def _on_regular_flanks(drive, solutions):
@@ -329,13 +660,6 @@ def _placed(drive, angles):
     angles = np.atleast_1d(angles)
     matrices = placed(drive, angles, drive.ratio * angles).matrices
     return [matrices[b["name"]] for b in drive.design.description["bodies"]]
-
-
-def _misaligned(drive, errors, angles):
-    """Placements that lead from the aligned drive to the given one."""
-    shares = np.arange(LEAD) / LEAD
-    drives = [drive.with_(misalignment={key: share * value for key, value in errors.items()}) for share in shares]
-    return [_placed(part, angles) for part in drives]
 
 
 def _senses(drive, angle, x):

@@ -1,12 +1,13 @@
-"""The window of contact where flanks touch along lines: while any point of the line lies on both flanks."""
+"""The window of a pair whose flanks touch along lines, or at an end of one: while any of the line lies on both flanks.
+
+Where the flanks are aligned the line is that of contact; where they are not, it is the ridge of the wheel's turn over
+them, at an end of which they touch.
+"""
 
 import math
 
-import numpy as np
-
 from meshwright.base.roots import bracketed
-from meshwright.contact.analysis import analyse
-from meshwright.contact.contact_line import deepest
+from meshwright.cycle.first_contact import Search
 
 #: Angles looked at per pitch.
 SAMPLES_PER_PITCH = 4
@@ -17,40 +18,40 @@ ANGLE_TOLERANCE = 1e-10
 
 
 def line_ends(drive, limits):
-    """Lower and upper end of line contact near the reference angle: (angle, limit) pairs, None where nothing ends it.
+    """Lower and upper end of the window near the reference angle: (angle, limit) pairs, None where nothing ends it.
 
     Contact is judged by the point of the line that lies deepest inside the limits; its limit names the end.
     """
-    tried = np.arange(PITCHES * SAMPLES_PER_PITCH) / SAMPLES_PER_PITCH * drive.pitch()
-    around = drive.design.reference_angle + np.stack([tried, -tried], axis=1).ravel()[1:]
-    inside = next((float(a) for a in around if _depth(drive, limits, a)[0] >= 0.0), None)
+    search, _ = Search.of(drive)
+    if search is None:
+        return None, None
+    named = {(limit.member, limit.reason): limit for limit in reversed(limits)}
+
+    def depth(angle):
+        """A line that leaves the flanks in a corner, where the face ends too, ends at the other limit."""
+        value, nearest = search.depth(angle)
+        nearest = [(member, "fold" if event == "spurious_sheet" else event) for member, event in nearest]
+        found = sorted((named[key] for key in nearest), key=lambda limit: limit.reason == "face")
+        return value, found[0] if found else None
+
+    pitch, middle = drive.pitch(), drive.design.reference_angle
+    shares = [k / SAMPLES_PER_PITCH for k in range(PITCHES * SAMPLES_PER_PITCH)]
+    around = [middle + sign * share * pitch for share in shares for sign in (1.0, -1.0)][1:]
+    inside = next((angle for angle in around if depth(angle)[0] >= 0.0), None)
     if inside is None:
         return None, None
-    return tuple(_end(drive, limits, inside, sign) for sign in (-1.0, 1.0))
+    return tuple(_end(drive, depth, inside, sign) for sign in (-1.0, 1.0))
 
 
-def _end(drive, limits, inside, sign):
+def _end(drive, depth, inside, sign):
     step, farthest = sign * drive.pitch() / SAMPLES_PER_PITCH, math.pi / drive.ratio
     while abs(inside - drive.design.reference_angle) < farthest:
-        depth, _ = _depth(drive, limits, inside + step)
-        if not math.isfinite(depth):
+        beyond, _ = depth(inside + step)
+        if not math.isfinite(beyond):
             return None
-        if depth < 0.0:
-            ends = inside, inside + step
-            angle = bracketed(lambda a: _depth(drive, limits, a)[0], *ends, ANGLE_TOLERANCE)
-            names = (_depth(drive, limits, angle + share * step)[1] for share in (1e-6, 1e-4, 1e-2, 1.0))
+        if beyond < 0.0:
+            angle = bracketed(lambda a: depth(a)[0], inside, inside + step, ANGLE_TOLERANCE)
+            names = (depth(angle + share * step)[1] for share in (1e-6, 1e-4, 1e-2, 1.0))
             return float(angle), next(limit for limit in names if limit)
         inside += step
     return None
-
-
-def _depth(drive, limits, angle):
-    """How deep the deepest point of the line lies within the limits, and which of them says so."""
-    found = analyse(drive, np.array([drive.design.mirror.sign * angle]))
-    if found.status[0] != "line_contact":
-        return math.nan, None
-    margins = deepest(drive, angle, found.solutions[0])[[limit.index for limit in limits]]
-    if np.isnan(margins).all():
-        return math.nan, None
-    k = int(np.nanargmin(margins))
-    return float(margins[k]), limits[k]

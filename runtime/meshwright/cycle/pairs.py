@@ -11,16 +11,24 @@ from functools import cached_property, partial
 import numpy as np
 
 from meshwright.base.roots import bracketed
+from meshwright.contact.analysis import at_solutions
+from meshwright.contact.results import impossible
+from meshwright.cycle.extremes import Extremes
 from meshwright.cycle.first_contact import search_from
 from meshwright.cycle.model import DriveModel
-from meshwright.cycle.rigid import RigidTeeth
-from meshwright.cycle.windows import Window
+from meshwright.cycle.rigid import ROUND_OFF, RigidTeeth
+from meshwright.cycle.windows import Window, status_at
 
 #: Sampling of one pitch when looking for changes in the number of teeth in contact.
 SAMPLES = 96
 
 #: Changes of the number of teeth are located to this angle, rad.
 ANGLE_TOLERANCE = 1e-12
+
+
+#: Errors at so many angles show whether they are one, from this share of the window inside its ends on.
+LOOKS = 9
+INNER = 1e-6
 
 
 @dataclass(frozen=True)
@@ -57,9 +65,60 @@ class Mesh:
         return "upper" if self.sense > 0 else "lower"
 
     @property
+    def middle(self):
+        """Angle of the right-hand drive in the middle of the window, or that to which relative errors refer."""
+        middle = 0.5 * self.mirror * (self.window.begin.angle + self.window.end.angle)
+        return middle if math.isfinite(middle) else self.drive.design.reference_angle
+
+    @cached_property
+    def impossible(self):
+        """Flags that points between the ends of the window carry and that mark what bodies cannot make."""
+        path = self.window.path
+        if path is None:
+            return ()
+        lower, upper = self.window.bounds
+        inside = (path.angles >= lower) & (path.angles <= upper)
+        found = at_solutions(self.drive, path.angles[inside], path.unknowns[inside])
+        return tuple(dict.fromkeys(f for flags in found.flags for f in flags if impossible(f)))
+
+    @cached_property
+    def path(self):
+        """The path of tangencies along which pairs touch; None where there is none, or one that bodies cannot make
+        while their flanks' extremes say where they touch.
+        """
+        return None if self.impossible and self.window.complete and self.search else self.window.path
+
+    @cached_property
+    def status(self):
+        """Status word of the contact of a pair in the middle of its window."""
+        if self.path is self.window.path:
+            return self.window.status
+        return status_at(self.drive, self.middle, self.window.status)
+
+    @cached_property
+    def contact(self):
+        """What says where a pair touches: its path or, where it has none, the extremes of the wheel's turn; None where
+        neither is known.
+        """
+        if self.path is not None:
+            return self.path
+        return None if self.search is None else Extremes(self.search)
+
+    @cached_property
+    def constant(self):
+        """Whether flanks without a path transmit one error while they touch, but for rounding."""
+        if self.path is not None or not self.window.complete:
+            return False
+        low, high = sorted((self.window.begin.angle, self.window.end.angle))
+        inner = INNER * (high - low)
+        return bool(np.ptp(self.errors(np.linspace(low + inner, high - inner, LOOKS))) < ROUND_OFF)
+
+    @property
     def sense(self):
         """+1 where the wheel is pushed to larger angles, −1 to smaller: the side on which the gap opens."""
         path = self.window.path
+        if path is None:
+            return math.nan if self.contact is None else self.mirror * self.contact.sense
         for angle in path.angles[np.argsort(np.abs(path.angles))]:
             (lever,) = path.levers([angle])
             if math.isfinite(lever) and lever != 0.0:
@@ -91,7 +150,7 @@ class Mesh:
 
     def errors(self, angles):
         """Transmission error of pair 0, rad, at pinion angles (M,); NaN where its path does not reach."""
-        return self.mirror * self.window.path.errors(self.mirror * np.atleast_1d(angles))
+        return self.mirror * self.contact.errors(self.mirror * np.atleast_1d(angles))
 
     def numbers(self, angle, reach=None):
         """The pairs inside their windows at a pinion angle: k with begin ≤ φ − k·pitch ≤ end.
@@ -105,18 +164,15 @@ class Mesh:
         return range(math.ceil((angle - high) / pitch), math.floor((angle - low) / pitch) + 1)
 
     def pairs(self, angle):
-        """Every :class:`Pair` inside its window at a pinion angle, nearest to contact first.
-
-        Flanks that touch along lines transmit uniformly: all their pairs touch.
-        """
+        """Every :class:`Pair` inside its window at a pinion angle, nearest to contact first."""
         numbers = list(self.numbers(angle))
         if not numbers:
             return ()
-        if self.window.path is None:
-            return tuple(Pair(k, angle - k * self.drive.pitch(), math.nan, 0.0) for k in numbers)
+        if self.contact is None:
+            return tuple(Pair(k, angle - k * self.drive.pitch(), math.nan, math.nan) for k in numbers)
         own = np.array([angle - k * self.drive.pitch() for k in numbers])
         errors = self.errors(own)
-        levers = np.abs(self.window.path.levers(self.mirror * own))
+        levers = np.abs(self.contact.levers(self.mirror * own))
         if not np.any(np.isfinite(errors)):
             return ()
         behind = np.maximum(np.nanmax(self.sense * errors) - self.sense * errors, 0.0)

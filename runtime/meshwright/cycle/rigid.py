@@ -51,7 +51,7 @@ class RigidTeeth:
     @classmethod
     def of(cls, mesh):
         """The first contacts of a mesh with both ends; None where the blank does not bound its flanks."""
-        if mesh.window.path is None or not mesh.window.complete:
+        if not mesh.window.complete:
             return None
         first = pair_errors(mesh)
         found = None if first is None else cls(mesh, first)

@@ -62,8 +62,9 @@ def _lengths(design):
 
 def _overlap(drive, play):
     """How deep the teeth stand in each other along the normal, mm."""
-    path = Mesh.of(drive).window.path
-    levers = np.abs(path.levers(path.angles))
+    mesh = Mesh.of(drive)
+    path = mesh.window.path
+    levers = np.abs(mesh.contact.levers(np.array([mesh.middle]) if path is None else path.angles))
     return -play * float(np.nanmedian(levers))
 
 

@@ -14,6 +14,13 @@ SAMPLES = 256
 
 ANGLE_TOLERANCE = 1e-10
 
+#: Samples of a pair's window, and of one pitch, where each takes a search.
+PAIR_SAMPLES = 33
+PITCH_SAMPLES = 64
+
+#: The ends of a window are left out by this share of it.
+INNER = 1e-6
+
 
 @dataclass(frozen=True)
 class TransmissionError:
@@ -58,6 +65,8 @@ class Envelopes:
 def transmission_error(mesh):
     """:class:`TransmissionError` of a :class:`~meshwright.cycle.pairs.Mesh`."""
     window, nothing = mesh.window, math.nan
+    if mesh.path is None and window.complete:
+        return _of_extremes(mesh)
     vertex, transfers = _vertex(mesh), _transfers(mesh)
     if not window.complete:
         return TransmissionError(mesh.envelope, nothing, nothing, nothing, nothing, transfers, vertex, False)
@@ -83,6 +92,36 @@ def transmission_error(mesh):
         vertex=vertex,
         rides_on_edge=_extreme_at_an_end(mesh, pair),
     )
+
+
+def _of_extremes(mesh):
+    """The same where no path says where pairs touch: they do along lines, or at an end of one."""
+    teeth = mesh.rigid
+    if mesh.constant and mesh.contact_ratio >= 1.0:
+        return TransmissionError(mesh.envelope, 0.0, 0.0, 0.0, 0.0, (), math.nan, False)
+    rigid = math.nan if teeth is None else teeth.peak_to_peak()
+    low, high = sorted((mesh.window.begin.angle, mesh.window.end.angle))
+    inner = INNER * (high - low)
+    pair = mesh.errors(np.linspace(low + inner, high - inner, PAIR_SAMPLES))
+    transmitted, other = _over_a_pitch(mesh)
+    spreads = _range(pair), transmitted, rigid, other
+    return TransmissionError(mesh.envelope, *spreads, (), math.nan, _extreme_at_an_end(mesh, pair))
+
+
+def _over_a_pitch(mesh):
+    """Peak to peak of the transmitted envelope and of the other one, rad, of a window with both ends and no path."""
+    if mesh.constant and mesh.contact_ratio >= 1.0:
+        return 0.0, 0.0
+    low, high = sorted((mesh.window.begin.angle, mesh.window.end.angle))
+    first = low + INNER * (high - low)
+    found = envelopes(mesh, first + np.arange(PITCH_SAMPLES) / PITCH_SAMPLES * mesh.drive.pitch())
+    return tuple(_range(errors) for errors in (found.upper, found.lower)[:: int(mesh.sense)])
+
+
+def _range(errors):
+    """Largest less smallest of errors (N,), rad; NaN where one is none, 0 where it is rounding."""
+    spread = float(np.ptp(errors))
+    return 0.0 if spread < ROUND_OFF else spread
 
 
 def changes(mesh, transfers):
@@ -113,6 +152,8 @@ def peak_to_peak(mesh):
     """Peak to peak of the transmitted envelope alone, rad; NaN for a window without both ends."""
     if not mesh.window.complete:
         return math.nan
+    if mesh.path is None:
+        return _over_a_pitch(mesh)[0]
     ends = tuple(sorted((mesh.window.begin.angle, mesh.window.end.angle)))
     return _ranges(mesh, ends, _vertex(mesh), _transfers(mesh))[0 if mesh.sense > 0 else 1]
 
@@ -161,11 +202,13 @@ def _pair_errors(mesh, own, edges):
 def fourier(mesh, orders=8):
     """Amplitudes and phases (rad) of the transmitted envelope at tooth orders 1 … ``orders``: two arrays (orders,).
 
-    TE(φ) = mean + Σ a_n cos(n·2π·φ/pitch + p_n), from 256 samples of one pitch.
+    TE(φ) = mean + Σ a_n cos(n·2π·φ/pitch + p_n), from 256 samples of one pitch, 64 without a path.
     """
-    angles = np.arange(SAMPLES) / SAMPLES * mesh.drive.pitch()
-    found = envelopes(mesh, angles)
-    spectrum = np.fft.rfft(found.upper if mesh.sense > 0 else found.lower) / SAMPLES
+    samples = SAMPLES if mesh.path is not None else PITCH_SAMPLES
+    if mesh.constant:
+        return np.zeros(orders), np.zeros(orders)
+    found = envelopes(mesh, np.arange(samples) / samples * mesh.drive.pitch())
+    spectrum = np.fft.rfft(found.upper if mesh.sense > 0 else found.lower) / samples
     return 2.0 * np.abs(spectrum[1 : orders + 1]), np.angle(spectrum[1 : orders + 1])
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from meshwright.base.roots import bracketed
 from meshwright.contact.branch import fold_angle
+from meshwright.cycle.first_contact import STATUSES, Search
 from meshwright.cycle.line_windows import line_ends
 from meshwright.cycle.path import SHORT_OF_FOLD, Path
 
@@ -57,8 +58,9 @@ class Limit:
 class Window:
     """Contact of one pair from ``begin`` to ``end``, in the order in which the driving pinion turns.
 
-    ``path`` is the branch of contact, right-hand drive, continued beyond the window; it is None where there is none,
-    and ``status`` is the status word that says why. Line contact has no path but may begin and end.
+    ``path`` is the branch of contact, right-hand drive, continued beyond the window; it is None where there is none
+    that comes onto both flanks, and ``status`` is the status word in its middle. Contact along lines, and at an end of
+    one, has no path but may begin and end.
     """
 
     begin: Event
@@ -91,17 +93,34 @@ def contact_window(drive):
     path, status = drive.path_start
     limits = limits_of(drive)
     if path is None:
-        ends = _line_ends(drive, limits) if status == "line_contact" else (NO_EVENT, NO_EVENT)
-        return Window(*_in_order(drive, ends), None, status)
+        return _of_lines(drive, limits) or Window(NO_EVENT, NO_EVENT, None, status_at(drive, 0.0, status))
     path = _searched(path, limits)
     if not (_worst(path, limits) >= 0.0).any():
         path = _closer(path, limits)
     ends = _ends(path, limits)
     if ends is None:
+        if (found := _of_lines(drive, limits)) is not None:
+            return found
         if _past_the_tips(path, limits):
             return Window(NO_EVENT, NO_EVENT, None, "no_contact")
         return Window(NO_EVENT, NO_EVENT, path)
     return Window(*_in_order(drive, ends), _with_margin(path, ends))
+
+
+def _of_lines(drive, limits):
+    """The window of contact along lines or at an end of them; None if no line comes onto both flanks."""
+    ends = tuple(NO_EVENT if e is None else Event(e[0], e[1].reason, e[1].member) for e in line_ends(drive, limits))
+    middle = 0.5 * (ends[0].angle + ends[1].angle)
+    if not math.isfinite(middle):
+        return None
+    return Window(*_in_order(drive, ends), None, status_at(drive, middle, "line_contact"))
+
+
+def status_at(drive, angle, otherwise):
+    """Status word of the bounded flanks at an angle of the right-hand drive; ``otherwise`` where that is not known."""
+    search, _ = Search.of(drive)
+    (kind,) = (None,) if search is None else search.first(np.array([_mirror(drive) * angle])).kinds
+    return STATUSES.get(kind, otherwise)
 
 
 def past_the_tips(drive):
@@ -157,11 +176,6 @@ def _in_order(drive, ends):
     sign = _mirror(drive)
     lower, upper = (Event(sign * e.angle, e.reason, e.member) for e in ends)
     return (upper, lower) if _descending(drive) else (lower, upper)
-
-
-def _line_ends(drive, limits):
-    found = line_ends(drive, limits)
-    return tuple(NO_EVENT if e is None else Event(e[0], e[1].reason, e[1].member) for e in found)
 
 
 def limits_of(drive):

@@ -20,6 +20,7 @@ from meshwright.base.library import ffi, library, model, model_in_lanes, pointer
 from meshwright.design import description as metadata
 from meshwright.design import schema
 from meshwright.design.mirror import Mirror
+from meshwright.design.nearest import filled_nearly
 
 PACKAGED = Path(__file__).parent.parent / "designs"
 
@@ -271,10 +272,10 @@ def check(tables, places=None):
     _check_order(description, checked)
     c = model(description["name"], places)
     parameters = _vector(description, checked)
-    p = pointer(parameters)
-    _complete(c, description, p, checked)
+    if failed := complete(c, description, parameters):
+        raise _guard_error(description["systems"][failed - 1], checked)
     state = np.empty(c.ns)
-    failed = c.setup(p, pointer(state))
+    failed = c.setup(pointer(parameters), pointer(state))
     if failed:
         told = [*description["guards"], *description["missing"]]
         raise _guard_error(told[failed - 1], checked, _by_place(description, parameters))
@@ -466,12 +467,17 @@ def has_rival(design, key):
     return key not in given and any(key in group and given & set(group) for group in design.description["exclusive"])
 
 
-def _complete(c, description, p, checked):
-    """Fill in what follows from the design; where a design system has no solution, its reason or an earlier guard's."""
-    work, info = np.empty(c.np + 1), ffi.new("mw_info *")
-    failed = library().mw_complete(c, p, pointer(work), info)
-    if failed:
-        raise _guard_error(description["systems"][failed - 1], checked)
+def complete(c, description, parameters):
+    """Fill in what follows from the design in ``parameters`` (np,). 0, or 1 + the number of the design system that has
+    no solution, and of which more than a start for the search of contact is asked.
+    """
+    work, info, before = np.empty(c.np + 1), ffi.new("mw_info *"), 0
+    while failed := library().mw_complete(c, pointer(parameters), pointer(work), info):
+        starts = failed > before and description["systems"][failed - 1]["start"]
+        if not (starts and filled_nearly(c, failed - 1, parameters)):
+            return failed
+        before = failed
+    return 0
 
 
 def _sizes(c, parameters):

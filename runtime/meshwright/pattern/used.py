@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 
-from meshwright.base.errors import UsageError
+from meshwright.cycle.first_contact import start_values
 from meshwright.cycle.pairs import Mesh
 from meshwright.flank.uses import Uses
 from meshwright.pattern.pattern import contours
@@ -24,21 +24,18 @@ def _solutions(mesh):
     """Solutions that contact visits (P, nx), right hand: the window of a pair, or what there is about its middle."""
     window, pitch = mesh.window, mesh.drive.pitch()
     if window.path is None:
-        unknowns = _about_the_middle(mesh.drive)
-        if not len(unknowns):  # what a flank is does not depend on how the members stand
-            errors = mesh.drive.design.given().get("misalignment", {})
-            unknowns = _about_the_middle(mesh.drive.with_(misalignment=dict.fromkeys(errors, 0.0)))
-        if not len(unknowns):
-            raise UsageError("the flanks do not touch: no part of them is in use; change the design or misalignment")
-        return unknowns
+        return _about_the_middle(mesh.drive)
     middle = mesh.drive.design.reference_angle
     low, high = window.bounds if window.complete else (middle - pitch, middle + pitch)
     return window.path.unknowns[(window.path.angles >= low) & (window.path.angles <= high)]
 
 
 def _about_the_middle(drive):
-    unknowns, _ = drive.trace(drive.about_the_middle([-0.25, 0.0, 0.25]))
-    return unknowns[np.isfinite(unknowns).all(axis=1)]
+    """Contacts about the middle, or the places from which they are sought where there is none."""
+    angles = drive.about_the_middle([-0.25, 0.0, 0.25])
+    unknowns, _ = drive.trace(angles)
+    solved = np.isfinite(unknowns).all(axis=1)
+    return unknowns[solved] if solved.any() else start_values(drive, drive.design.mirror.sign * angles)
 
 
 def _patches(mesh):

@@ -41,8 +41,8 @@ class Sensitivity:
 
     @property
     def at_points(self):
-        """Whether they touch at a point on either side."""
-        return bool(self.minus.solved.any() or self.plus.solved.any())
+        """Whether they touch at a point of a flank, an edge or a corner on either side."""
+        return bool(np.isfinite([self.minus.points, self.plus.points]).any())
 
 
 def misalignments(design):
@@ -84,5 +84,4 @@ def sensitivity(drive, parameter, angles, size=None):
 
 
 def _peak_to_peak(drive):
-    mesh = Mesh.of(drive)
-    return math.nan if mesh.window.path is None else peak_to_peak(mesh)
+    return peak_to_peak(Mesh.of(drive))

@@ -19,7 +19,7 @@ import numpy as np
 from meshwright.base.errors import DesignError, UsageError
 from meshwright.base.files import locked, remove_parts, write_bytes
 from meshwright.contact import analysis
-from meshwright.contact.results import ARCSEC, SOLVED
+from meshwright.contact.results import ARCSEC, SOLVED, TOUCHING
 from meshwright.design import design as designs
 from meshwright.drive import Drive
 from meshwright.sweep import samples, slices
@@ -277,7 +277,8 @@ def _read_claim(mark):
 
 
 def summary(plan, folder, form="parquet"):
-    """Quantiles over the samples: peak-to-peak transmission error and mean contact position; counts of points.
+    """Quantiles over the samples: peak-to-peak transmission error and, of those without a line of contact, mean contact
+    position; counts of points.
 
     Points that bodies cannot make are counted apart; a sample with one of them, or without a contact, is not complete.
     Of those that are not, the first are listed by number.
@@ -289,14 +290,15 @@ def summary(plan, folder, form="parquet"):
     for number in range(plan.slices):
         path, rows = _slice(folder, number, form), plan.slice_rows(number)
         status, flags, error, *xyz = slices.read(path, names, identity, number, rows)
-        solved = np.isin(status, analysis.status_codes(*SOLVED))
+        solved = np.isin(status, analysis.status_codes(*TOUCHING))
         good = solved & ((flags.astype(np.uint32) & bad) == 0)
         words.update(dict(zip(*(a.tolist() for a in np.unique(status, return_counts=True)), strict=True)))
         impossible += int((solved & ~good).sum())
         whole = good.reshape(-1, n).all(axis=1)
         peaks.append(np.ptp(error.reshape(-1, n)[whole], axis=1))
         wholes.append(whole)
-        places.append(np.stack([c.reshape(-1, n)[whole].mean(axis=1) for c in xyz], axis=1))
+        means = np.stack([c.reshape(-1, n)[whole].mean(axis=1) for c in xyz], axis=1)
+        places.append(means[np.isfinite(means).all(axis=1)])
     peaks, places, whole = np.concatenate(peaks), np.concatenate(places), np.concatenate(wholes)
     statuses, by_word = analysis.statuses(), Counter()
     for code, count in words.items():
@@ -307,6 +309,7 @@ def summary(plan, folder, form="parquet"):
         "first_incomplete_samples": np.flatnonzero(~whole)[:FIRST].tolist(),
         "points": words.total(),
         "points_converged": sum(by_word[word] for word in SOLVED) - impossible,
+        "points_touching": sum(by_word[word] for word in TOUCHING) - impossible,
         "points_impossible": impossible,
         "points_by_status": dict(by_word),
         "quantiles": list(QUANTILES),

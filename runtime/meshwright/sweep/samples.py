@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.errors import DesignError
-from meshwright.base.library import ffi, library, pointer
+from meshwright.base.library import library, pointer
 from meshwright.contact import analysis, flags
 from meshwright.contact.results import OFF_TIP, SOLVED, impossible
 from meshwright.cycle import windows
@@ -101,7 +101,18 @@ def solve(drive, keys, values, angles, portable=False):
             found.status[k], found.flags[k] = analysis.status_codes("no_contact")[0], 0
             found.error[k], found.points[k] = np.nan, np.nan
     found.flags[:] |= _bits(drive, flags.ON_EDGE) * _on_an_edge(batch, found, angles, drive_of)
+    _without_tangency(drive, found, angles, drive_of)
     return found
+
+
+def _without_tangency(drive, found, angles, drive_of):
+    """Fill in where and how the bounded flanks touch at points at which lanes found no tangency, or nearly a line."""
+    open_ = (~found.solved | (found.status == library().MW_CONVERGED_NOISE)) & (found.status != library().MW_BAD_INPUT)
+    for k in np.flatnonzero(open_.any(axis=1)):
+        result, rows = drive_of(k).tca(angles), open_[k]
+        found.status[k, rows] = [analysis.status_codes(word)[0] for word in result.only(rows).status]
+        found.error[k, rows], found.points[k, rows] = result.error[rows], result.points[rows]
+        found.flags[k, rows] = [_bits(drive, *words) for words in result.only(rows).flags]
 
 
 def _in_lanes(drive):
@@ -216,9 +227,8 @@ def _parameters(drive, keys, values):
         rows[:, k] = numbers * p["factor"]
     possible = designs.allowed(drive.design, dict(zip(keys, values.T, strict=True)))
     if follows:
-        work, info = np.empty(drive.model.np + 1), ffi.new("mw_info *")
         for k in np.flatnonzero(possible):
-            possible[k] = library().mw_complete(drive.model, pointer(rows[k]), pointer(work), info) == 0
+            possible[k] = designs.complete(drive.design.model, drive.design.description, rows[k]) == 0
     rows[~possible] = np.nan
     return rows
 
