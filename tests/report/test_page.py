@@ -13,7 +13,9 @@ import pytest
 from meshwright import Drive, cli
 from meshwright.contact.results import ARCSEC
 from meshwright.report import analyse, page, sensitivity_figures
+from meshwright.report.findings import findings, tiles
 from meshwright.report.numbers import fixed, number, unit
+from meshwright.report.scene import scene
 from meshwright.report.tables import groups
 from meshwright.sensitivity import on_member, sensitivity
 from tests.live.browser import CHROMIUM, HEADLESS, WIDTHS, Browser
@@ -239,3 +241,33 @@ def test_nothing_of_the_page_is_cut_off_in_any_width(name, paged, tmp_path):
         assert [browser.cut_off(file.as_uri(), width) for width in WIDTHS] == [[]] * len(WIDTHS)
     finally:
         browser.close()
+
+
+#: A spur pair without crowning, aligned and inclined.
+PLAIN = {
+    "drive": "cylindrical-gears",
+    "name": "plain spur pair",
+    "design": {"normal_module_mm": 4.5, "pressure_angle_deg": 20.0, "face_width_mm": 14.0, "pinion_teeth": 16,
+               "wheel_teeth": 24, "pinion_helix_angle_deg": 0.0, "wheel_helix_angle_deg": 0.0},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("inclined", "status"), [(0.0, "line_contact"), (0.005, "edge_contact")])
+def test_a_plain_pair_has_the_cards_and_pictures_of_others(inclined, status):
+    """Contact ratio, teeth, error and backlash, lines from face to face inside the flank, and nothing to warn of."""
+    drive = Drive.from_tables(PLAIN | {"misalignment": {"vertical_deg": inclined}})
+    drive = drive.with_(design={"center_distance_mm": drive.design.value("center_distance_mm") + 0.1})
+    analysis = analyse(drive, quiet)
+    assert set(analysis.tca.status) == {status}
+    assert {"Contact ratio", "Teeth in contact", "Transmission error", "Backlash"} <= {t.label for t in tiles(analysis)}
+    assert not [finding for finding in findings(analysis) if finding.kind == "warn"]
+    assert set(analysis.whole) == {"pinion", "wheel"} and scene(analysis) is not None
+    for line in analysis.lines:
+        for member, points in line.body_points.items():
+            margins = drive.flank(member)(line.parameters[member]).margins.values()
+            assert min(np.nanmin(margin) for margin in margins if np.isfinite(margin).any()) > -1e-9
+            assert np.ptp(points[:, 2]) == pytest.approx(14.0, abs=1e-9)
+    window = drive.window
+    assert bool(analysis.lines) == (status == "line_contact")
+    assert abs(analysis.tca.angles[[0, -1]] - sorted([window.begin.angle, window.end.angle])).max() < drive.pitch() / 12
+    assert "the flanks touch along a line" in page(analysis) or "left face" in page(analysis)

@@ -367,6 +367,10 @@ class TouchingLine:
         along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(self.points, axis=0), axis=1))])
         return self.places[int(np.argmin(np.abs(along - 0.5 * along[-1])))]
 
+    def unknowns(self, drive):
+        """Unknowns of contact at its points, right hand: (M, nx)."""
+        return np.array([_unknowns(drive, place) for place in self.places])
+
     @property
     def length(self):
         """Length of the line, mm."""

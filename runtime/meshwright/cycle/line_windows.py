@@ -16,6 +16,9 @@ SAMPLES_PER_PITCH = 4
 PITCHES = 2
 ANGLE_TOLERANCE = 1e-10
 
+#: Where the line ceases, steps are halved down to this share of a pitch.
+LAST_STEP = 1e-6
+
 
 def line_ends(drive, limits):
     """Lower and upper end of the window near the reference angle: (angle, limit) pairs, None where nothing ends it.
@@ -47,8 +50,11 @@ def _end(drive, depth, inside, sign):
     step, farthest = sign * drive.pitch() / SAMPLES_PER_PITCH, math.pi / drive.ratio
     while abs(inside - drive.design.reference_angle) < farthest:
         beyond, _ = depth(inside + step)
-        if not math.isfinite(beyond):
-            return None
+        if not math.isfinite(beyond):  # a flank ends there, and with it the line that passes over its limits before
+            if abs(step) < LAST_STEP * drive.pitch():
+                return None
+            step *= 0.5
+            continue
         if beyond < 0.0:
             angle = bracketed(lambda a: depth(a)[0], inside, inside + step, ANGLE_TOLERANCE)
             names = (depth(angle + share * step)[1] for share in (1e-6, 1e-4, 1e-2, 1.0))

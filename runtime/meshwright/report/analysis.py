@@ -8,10 +8,10 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.base.worker import in_worker
-from meshwright.contact.contact_line import ContactLine, contact_line
+from meshwright.contact.contact_line import ContactLine
 from meshwright.contact.flags import not_first
 from meshwright.contact.friction import Efficiency, efficiency
-from meshwright.contact.placement import placements
+from meshwright.contact.placement import placed
 from meshwright.contact.results import TCA, impossible
 from meshwright.contact.velocities import Velocities, velocities
 from meshwright.cycle.backlash import backlash
@@ -27,6 +27,7 @@ from meshwright.cycle.transmission import (
     transmission_error,
 )
 from meshwright.drive import Drive
+from meshwright.flank.mesh import mesh
 from meshwright.pattern.pattern import Contour, along_ellipse, contours
 from meshwright.report.branches import breaks
 from meshwright.report.patch import Patch, patch
@@ -39,11 +40,14 @@ POSITIONS, LARGEST_STEP = 120, math.radians(5.0)
 #: Pitches shown to either side of angle 0 where no limit ends the contact.
 WITHOUT_END = 1.0
 
-#: Where the flanks touch along lines: how far lines are sought, pitches, and how many positions a pitch.
-LINE_REACH, LINES_PER_PITCH = 12, 12
+#: How many positions a pitch are shown where the flanks touch along lines, or at an end of them.
+LINES_PER_PITCH = 12
 
 #: Contours of the contact pattern along the path, and directions in each.
 CONTOURS, DIRECTIONS = 9, 96
+
+#: Cells of a flank, across and along, that an edge touches.
+FLANK_CELLS = (12, 24)
 
 #: Tooth orders of the Fourier components.
 ORDERS = 8
@@ -153,9 +157,8 @@ def analyse(drive, step, friction=None, marking=None, sizes=None, crossings=None
     """
     sizes = checked_sizes(drive.design, sizes or {})
     step("window of contact")
-    mesh = Mesh.of(drive)
-    along_lines = mesh.window.status == "line_contact"
-    angles, per_pitch = _line_positions(drive, mesh.window) if along_lines else _positions(drive, mesh)
+    pairs = Mesh.of(drive)
+    angles, per_pitch = _line_positions(drive, pairs.window) if pairs.path is None else _positions(drive, pairs)
     step("contact over the pinion angle")
     tca = drive.tca(angles)
     with (
@@ -163,20 +166,23 @@ def analyse(drive, step, friction=None, marking=None, sizes=None, crossings=None
         in_worker(lambda: _sensitivities(drive, angles, sizes)) as sensitivities,
     ):
         step("all pairs together")
-        running = None if mesh.window.path is None else _running(mesh, angles)
+        known = pairs.path is not None or (pairs.window.complete and pairs.contact is not None)
+        running = _running(pairs, angles) if known else None
         first = first_contact()
         tca = not_first(tca, first)
         step("contact pattern")
         pattern = _pattern(drive, tca)
-        lines = _lines(drive, angles) if along_lines else ()
+        lines = _lines(drive, tca)
         step("flanks")
         matrices = _matrices(drive, tca)
-        patches = _line_patches(drive, lines) if along_lines else _patches(drive, tca, matrices)
+        places = np.where(tca.solved[:, None], tca.solutions, first.solutions)
+        patches = _patches(drive, tca, matrices) or _line_patches(drive, lines) or _edge_patches(drive, tca)
         step("whole flanks")
         if crossings is not None:
             with suppress(UsageError):  # who asks for a region is told so
                 drive.know(crossings())
-        whole = whole_flanks(drive, angles, None if running is None else running.transmitted(running.envelopes))
+        transmitted = None if running is None else running.transmitted(running.envelopes)
+        whole = whole_flanks(drive, angles, transmitted, places)
         step("misalignments")
         misaligned = sensitivities()
     moving = velocities(drive, tca)
@@ -211,25 +217,27 @@ def _positions(drive, mesh):
 
 
 def _line_positions(drive, window):
-    """Like :func:`_positions`, where there is any line of contact inside the limits."""
-    pitch = drive.pitch()
-    sought = np.arange(-2 * LINE_REACH, 2 * LINE_REACH + 1) * pitch / 2
-    if window.complete:
-        begin, end = sorted((window.begin.angle, window.end.angle))
-        sought = sought[(sought >= begin) & (sought <= end)]
-    touching = sought[[len(line.points) > 0 for line in _lines(drive, sought)]]
-    low, high = (touching[0], touching[-1]) if touching.size else (-pitch, pitch)
-    count = round((high - low) / pitch * LINES_PER_PITCH)
-    return low + np.arange(count + 1) * pitch / LINES_PER_PITCH, LINES_PER_PITCH
+    """Like :func:`_positions`, where the flanks touch along lines or at an end of them."""
+    step, middle = drive.pitch() / LINES_PER_PITCH, drive.design.mirror.sign * drive.design.reference_angle
+    ends = sorted((window.begin.angle, window.end.angle))
+    low, high = ends if window.complete else (middle - drive.pitch(), middle + drive.pitch())
+    return np.arange(math.ceil(low / step), math.floor(high / step) + 1) * step, LINES_PER_PITCH
 
 
-def _lines(drive, angles):
-    """The line of contact at each of the ascending angles; empty where there is none."""
-    mirror = drive.design.mirror.sign
-    order = np.argsort(mirror * angles)
-    unknowns, _ = drive.trace(mirror * angles[order])
-    unknowns = unknowns[np.argsort(order)]
-    return tuple(contact_line(drive, mirror * a, x) for a, x in zip(angles, unknowns, strict=True))
+def _lines(drive, tca):
+    """The line of contact at each position, empty where there is none; none at all where there is none anywhere."""
+    mirror = drive.design.mirror
+    if not any(tca.lines):
+        return ()
+
+    def line(angle, found):
+        x = np.empty((0, drive.model.nx)) if found is None else found.unknowns(drive)
+        parameters = {body["name"]: x[:, body["unknowns"]] for body in drive.design.description["bodies"]}
+        places = {name: drive.flank(name)(q).points if len(q) else np.empty((0, 3)) for name, q in parameters.items()}
+        points = np.empty((0, 3)) if found is None else found.points * mirror.flip
+        return ContactLine(mirror.sign * float(angle), points, places, parameters)
+
+    return tuple(map(line, tca.angles, tca.lines))
 
 
 def _running(mesh, angles):
@@ -264,10 +272,9 @@ def _pattern(drive, tca):
 
 
 def _matrices(drive, tca):
+    """Placements (N, 4, 4) of the right-hand drive by member; NaN where nothing touches."""
     mirror = drive.design.mirror.sign
-    order = np.argsort(mirror * tca.angles)
-    placed = placements(drive, mirror * tca.angles[order])
-    return {name: matrices[np.argsort(order)] for name, matrices in placed.matrices.items()}
+    return placed(drive, mirror * tca.angles, mirror * tca.wheel_angles).matrices
 
 
 def _patches(drive, tca, matrices):
@@ -283,7 +290,7 @@ def _patches(drive, tca, matrices):
     for body in drive.design.description["bodies"]:
         rotations = matrices[body["name"]][solved, :3, :3]
         axes = np.einsum("nxb,nax->nab", rotations, ellipses)
-        path = _parameters(drive, body, tca)[solved]
+        path = tca.solutions[solved][:, body["unknowns"]]
         patches[body["name"]] = patch(drive.flank(body["name"]), path, axes, size / 70)
     return patches
 
@@ -301,9 +308,16 @@ def _line_patches(drive, lines):
     return patches
 
 
-def _parameters(drive, body, tca):
-    """Surface parameters of the contact points on a body (N, k), right-hand drive."""
-    mirror = drive.design.mirror.sign
-    order = np.argsort(mirror * tca.angles)
-    unknowns, _ = drive.trace(mirror * tca.angles[order])
-    return unknowns[np.argsort(order)][:, body["unknowns"]]
+def _edge_patches(drive, tca):
+    """Both whole flanks; none where nothing touches, or one of them cannot be bounded."""
+    if not np.isfinite(tca.points).all(axis=1).any():
+        return {}
+    patches = {}
+    for body in drive.design.description["bodies"]:
+        try:
+            triangles = mesh(drive.region(body["name"]), FLANK_CELLS)
+        except UsageError:
+            return {}
+        size, path = np.linalg.norm(np.ptp(triangles.points, axis=0)), triangles.parameters
+        patches[body["name"]] = patch(drive.flank(body["name"]), path, np.zeros((len(path), 2, 3)), size / 40)
+    return patches

@@ -50,7 +50,8 @@ def pictures(analysis):
     drawn += [_whole_pattern(member, analysis) for member in analysis.whole]
     drawn += [_ease_off(member) for member, w in analysis.whole.items()
               if member == "wheel" and np.isfinite(w.ease_off).any()]  # fmt: skip
-    drawn += [_pattern(member, bool(analysis.lines)) for member in analysis.patches]
+    if solved or analysis.lines:
+        drawn += [_pattern(member, bool(analysis.lines)) for member in analysis.patches]
     if np.isfinite(analysis.tca.semi_axes).all(axis=1).any():
         drawn.append(_SEMI_AXES)
     if solved:

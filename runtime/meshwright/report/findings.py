@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.contact import words
-from meshwright.contact.results import ARCSEC, impossible
+from meshwright.contact.results import ARCSEC, TOUCHING, impossible
 from meshwright.cycle import room
 from meshwright.cycle.backlash import meaning
 from meshwright.cycle.ends import event, why_open, without_contact
@@ -151,7 +151,11 @@ def _statuses(analysis):
     tca = analysis.tca
     counted = Counter(m for s, m in zip(tca.status, tca.messages, strict=True) if s != "converged")
     total = len(tca.status)
-    return [Finding("warn", f"At {n} of {total} positions {message}.") for message, n in counted.items()]
+    word = dict(zip(tca.messages, tca.status, strict=True))
+    return [
+        Finding("note" if word[message] in TOUCHING else "warn", f"At {n} of {total} positions {message}.")
+        for message, n in counted.items()
+    ]
 
 
 def _flags(analysis):

@@ -41,9 +41,9 @@ class _Touch:
 def scene(analysis):
     """Plain data of the 3-D view (lengths mm, fixed frame), or None if the flanks touch nowhere."""
     tca = analysis.tca
-    touch = _along_lines(analysis) if analysis.lines else _at_points(tca)
     if not analysis.patches:
         return None
+    touch = _along_lines(analysis) if analysis.lines else _at_points(tca, analysis.patches["pinion"])
     mirror = analysis.drive.design.mirror
     matrices = {name: mirror.placements(m) for name, m in analysis.matrices.items()}
     inward = _inward(touch, matrices["pinion"])
@@ -67,16 +67,21 @@ def scene(analysis):
     }
 
 
-def _at_points(tca):
-    known = tca.solved[:, None]
+def _at_points(tca, patch):
+    """Points inside the flanks with their ellipses or, where all lie on edges, what is shown of the flank."""
+    known = np.isfinite(tca.points).all(axis=1)[:, None]
     points, normals = (np.where(known, values, np.nan) for values in (tca.points, tca.normals))
-    return _Touch(points, normals, (None,) * len(points), float(np.nanmax(tca.semi_axes[:, 0], initial=0.0)))
+    reach = np.nanmax(tca.semi_axes[:, 0], initial=0.0)
+    if not tca.solved.any():
+        shown = patch.points[np.isfinite(patch.points).all(axis=2)]
+        reach = 0.5 * np.linalg.norm(np.ptp(shown, axis=0))
+    return _Touch(points, normals, (None,) * len(points), float(reach))
 
 
 def _along_lines(analysis):
-    """Each line with its middle point and the normal there."""
+    """Each line with its middle point and the normal there, or the point at positions without a line."""
     flip = analysis.drive.design.mirror.flip
-    points, normals = (np.full((len(analysis.lines), 3), np.nan) for _ in range(2))
+    points, normals = analysis.tca.points.copy(), analysis.tca.normals.copy()
     flank = analysis.drive.flank("pinion")
     for k, line in enumerate(analysis.lines):
         if len(line.points):

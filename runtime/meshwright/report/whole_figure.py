@@ -84,7 +84,7 @@ class Sheet:
     def path(self, axes, analysis, member):
         """Draw the path of contact and name its ends."""
         places, tca = self.flat(analysis.tca.body_points[member]), analysis.tca
-        if not tca.solved.any():
+        if not np.isfinite(tca.points).any():
             return
         axes.plot(*broken(places, analysis.breaks).T, color=style.INK, linewidth=1.2)
         known = np.flatnonzero(np.isfinite(places).all(axis=1))

@@ -51,13 +51,14 @@ class WholeFlank:
     running: np.ndarray
 
 
-def whole_flanks(drive, angles, transmitted=None):
+def whole_flanks(drive, angles, transmitted=None, places=None):
     """The :class:`WholeFlank` of each member by name, of pairs in contact at ascending pinion ``angles`` (N,), rad.
 
-    ``transmitted`` (N,), rad, is the transmission error of the drive there, by default that of the pair. A member
+    ``transmitted`` (N,), rad, is the transmission error of the drive there, by default that of the pair; ``places``
+    (N, nx) are unknowns of where the pair touches, right hand, by default in tangencies. A member
     whose flank is empty or cannot be bounded has none; none at all where there is no contact.
     """
-    contacts = _Contacts.of(drive, angles, transmitted)
+    contacts = _Contacts.of(drive, angles, transmitted, places)
     if contacts is None:
         return {}
     found = {}
@@ -98,11 +99,11 @@ class _Contacts:
     reference: float
 
     @classmethod
-    def of(cls, drive, angles, transmitted):
+    def of(cls, drive, angles, transmitted, places):
         mirror = drive.design.mirror.sign
         order = np.argsort(mirror * angles)
         turned = (mirror * angles)[order]
-        unknowns, _ = drive.trace(turned)
+        unknowns = drive.trace(turned)[0] if places is None else places[order]
         errors = unknowns[:, drive.design.description["error"]]
         driven = errors if transmitted is None else mirror * transmitted[order]
         known = np.isfinite(unknowns).all(axis=1)
