@@ -38,7 +38,7 @@ def _near(drive, middle, generator, sizes):
 def _statuses(drive, generator):
     """Statuses of a trace far to both sides, and of Newton's method from a hundred starts that mislead."""
     info = ffi.new("mw_info *")
-    found = set(analysis.trace(drive, np.array([-4.0, -1.0, 0.0, 1.0, 4.0, 1e5]))[1]["status"].tolist())
+    found = set(analysis.trace(drive, np.array([-4.0, -1.0, 0.0, 1.0, 4.0, 1e13]))[1]["status"].tolist())
     middle = _middle(drive)
     for _ in range(100):
         state, x = _near(drive, middle, generator, [0.1, 1.0, 10.0])

@@ -4,13 +4,14 @@ Functions of the state alone, the parameters at its end included: what they need
 """
 
 from derive.emit.c99 import Leaves, Printer, linearised, names_of
+from derive.emit.metadata import parameters_at
 from derive.emit.render import render
 
 
 def header(plan, routines, generator):
     """The text of the drive's header of bounded flanks."""
     drive, names = plan.drive, names_of(plan)
-    before = len(plan.state)
+    before = parameters_at(plan)
     known = Leaves.of(plan).state | {
         plan.lower(p.symbol): f"s[{before + k}]" for k, p in enumerate(drive.parameters)
     }

@@ -18,7 +18,7 @@ from derive.program.tape import Stage
 GENERATOR = "0.1.0"
 
 #: Version of the model table in runtime/c/mw_model.h, for which headers are generated.
-ABI = 6
+ABI = 7
 
 
 def describe(plan, provenance):
@@ -64,6 +64,7 @@ def describe(plan, provenance):
         "error": plan.unknowns.index(drive.error),
         "wheel_angle": offsets["wheel_angle"],
         "reference": _reference(drive),
+        "teeth": [p.key for p in drive.parameters].index(drive.pinion_teeth),
         "geometry": offsets["tangent_basis"],
         "bodies": [_body(plan, body, offsets) for body in drive.bodies],
         "regions": [_region(*pair) for pair in zip(plan.regions, drive.regions, strict=True)],
@@ -73,7 +74,7 @@ def describe(plan, provenance):
         "tool_clearance": drive.tool_clearance and asdict(drive.tool_clearance),
         "shapes": {
             "p": [len(drive.parameters)],
-            "s": [len(plan.state) + len(drive.parameters)],  # the parameters are kept at its end
+            "s": [parameters_at(plan) + len(drive.parameters)],
             "x": [len(drive.unknowns)],
             "R": [len(drive.unknowns)],
             "J": [len(drive.unknowns)] * 2,
@@ -166,6 +167,13 @@ def self_test(plan):
         "x_start": [x.hex() for x in plan.beside],
         "x": [inputs[u].hex() for u in plan.unknowns],
     }
+
+
+def parameters_at(plan):
+    """Where the parameters, at the end of the state, begin: after the plan's state and what X_follow keeps, which is MWI_KEPT
+    numbers of runtime/c/solver/follow.h and two solutions.
+    """
+    return len(plan.state) + 3 + 2 * len(plan.unknowns)
 
 
 def _reference(drive):

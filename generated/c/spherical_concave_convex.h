@@ -41,7 +41,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 6
+#define MW_MODEL_ABI 7
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -105,6 +105,8 @@ typedef struct mw_model {
     int error;                   /* index of the transmission error among the unknowns */
     int wheel_angle;             /* index of the wheel angle in the observation */
     int reference;               /* index in p of the reference angle, where the start values lead; -1: angle 0 */
+    int teeth;                   /* index in p of the number of the pinion's teeth or threads */
+    int memory;                  /* index in s from which X_follow keeps what it knows of the pair; -1: nowhere */
     int geometry;                /* in the observation: an orthonormal basis of the tangent plane (6), fixed frame; in it
                                     second fundamental forms (11, 12, 22) of pinion and wheel along their own outward
                                     normals and of the gap along the pinion's; the gap's principal curvatures, the smaller
@@ -172,17 +174,21 @@ typedef enum mw_status {
     MW_STATUS_END = 1000
 } mw_status;
 
+/* Largest input angle to either side, rad. */
+#define MW_MAX_ANGLE 1e12
+
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 
-/* Largest nx, no, np and nanchor of any model; largest input angle to either side, rad. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANCHOR = 96, MW_MAX_ANGLE = 10000 };
+/* Largest nx, no, np and nanchor of any model; largest angle, rad, to which one pair of teeth is followed. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANCHOR = 96, MW_MAX_TURN = 10000 };
 
 /* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
  * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
- * factorised with complete pivoting. guard: 1 + index of a failed guard, else 0. */
+ * factorised with complete pivoting. guard: 1 + index of a failed guard, else 0. Of X_follow: the number of the tooth pair,
+ * its own angle, rad, and whether it was solved from the reference, not from the solution before. */
 typedef struct mw_info {
-    int status, iterations, guard;
-    double step, residual, rank_gap;
+    int status, iterations, guard, cold;
+    double step, residual, rank_gap, pair, angle;
 } mw_info;
 
 /* Contact geometry, fixed frame. Principal relative curvatures (wheel less pinion along the normal, 1/mm):
@@ -202,20 +208,21 @@ typedef struct mw_contact {
 /* END INTERFACE */
 #endif
 
-#if MW_MODEL_ABI != 6
+#if MW_MODEL_ABI != 7
 #error "this header and one included before it are of different versions of meshwright: generate both anew"
 #endif
 
 #define spherical_concave_convex_NX 5
 #define spherical_concave_convex_NP 25
-#define spherical_concave_convex_NS 126
+#define spherical_concave_convex_NS 139
+#define spherical_concave_convex_MEMORY 101
 #define spherical_concave_convex_NO 63
 #define spherical_concave_convex_ND 16
 #define spherical_concave_convex_NSTART 0
 #define spherical_concave_convex_NFLAGS 10
 #define spherical_concave_convex_NANCHOR 18
 #define spherical_concave_convex_NEAREST 3.814697265625e-06
-#define spherical_concave_convex_ABI 6
+#define spherical_concave_convex_ABI 7
 #define spherical_concave_convex_SPEC_HASH "bd7b1568bec9922855e59cebff245c85e9bbba365458cf19525d105321237181"
 
 /* Places of parameters by key in p (P) and the numbers for their words (W), places of unknowns in x (U), and of outputs in
@@ -1118,6 +1125,7 @@ static inline int spherical_concave_convex_setup(const double *p, double *s)
     MW_S(ratio) = t_ratio;
     MW_S(kfr9m) = t_kfr9m;
     MW_S(pz6mf) = t_pz6mf;
+    s[spherical_concave_convex_MEMORY] = NAN;
     for (int k = 0; k < spherical_concave_convex_NP; k++) s[spherical_concave_convex_NS - spherical_concave_convex_NP + k] = p[k];
     return failed ? spherical_concave_convex_missing(p, failed) : 0;
 }
@@ -4786,7 +4794,7 @@ static const mw_function spherical_concave_convex_functions[] = {
 static const mw_model spherical_concave_convex_model = {
     spherical_concave_convex_ABI, "spherical_concave_convex", "spherical", "concave pinion with a convex wheel", spherical_concave_convex_SPEC_HASH,
     spherical_concave_convex_NX, spherical_concave_convex_NP, spherical_concave_convex_NS, spherical_concave_convex_NO, spherical_concave_convex_ND, spherical_concave_convex_NSTART, 21,
-    4, 18, -1, 43,
+    4, 18, -1, 6, spherical_concave_convex_MEMORY, 43,
     spherical_concave_convex_unknown_names, spherical_concave_convex_parameter_names, spherical_concave_convex_size_names,
     spherical_concave_convex_output_names, 31, spherical_concave_convex_output_sizes, spherical_concave_convex_guard_texts, spherical_concave_convex_bodies,
     spherical_concave_convex_derive, spherical_concave_convex_size, spherical_concave_convex_setup, spherical_concave_convex_set_phi, spherical_concave_convex_eval, spherical_concave_convex_step,
@@ -4829,7 +4837,8 @@ static inline mw_info mwi_ended(int status, int guard)
     info.status = status;
     info.iterations = 0;
     info.guard = guard;
-    info.step = info.residual = info.rank_gap = 0.0;
+    info.cold = 1;
+    info.step = info.residual = info.rank_gap = info.pair = info.angle = 0.0;
     return info;
 }
 static inline const char *mwi_status_word(int status)
@@ -4859,7 +4868,7 @@ static inline int mwi_usable(const mw_model *m)
 }
 static inline int mwi_angle_in_range(double phi)
 {
-    return mwi_abs(phi) <= (double)MW_MAX_ANGLE;
+    return mwi_abs(phi) <= (double)MW_MAX_TURN;
 }
 #endif
 
@@ -5443,12 +5452,16 @@ static inline int mwi_near(const mw_model *m, const double *s, const double *a, 
         if (!(mwi_abs(a[i] - b[i]) <= sizes * scale[i])) return 0;
     return 1;
 }
+static inline int mwi_bend_of(const mw_contact *c)
+{
+    return c->line ? 0 : c->curvature_min * c->curvature_max > 0.0 ? 1 : -1;
+}
 static inline int mwi_bend(const mw_model *m, const double *s, const double *x)
 {
     double o[MW_MAX_OBSERVATION];
     mw_contact c;
     mwi_contact_at(m, s, x, o, &c);
-    return c.line ? 0 : c.curvature_min * c.curvature_max > 0.0 ? 1 : -1;
+    return mwi_bend_of(&c);
 }
 static inline void mwi_take_direction(const mw_model *m, mwi_history *h, double phi, double *s, double *beside)
 {
@@ -5659,16 +5672,21 @@ static const double MWI_SEARCH_SHORT = 0.7, MWI_SEARCH_CLOSE = 1e-9, MWI_SEARCH_
 static const double MWI_SEARCH_RIDGE_DONE = 1e-6, MWI_SEARCH_RIDGE_NUDGE = 1e-3, MWI_SEARCH_RIDGE_STEP = 0.25;
 static const double MWI_SEARCH_SAME_ANGLE = 1e-11;
 typedef enum mwi_worth { MWI_IMPOSSIBLE, MWI_BEYOND_LIMITS, MWI_ON_BOTH_FLANKS, MWI_OF_A_LINE } mwi_worth;
+static inline mwi_worth mwi_worth_in(const mw_model *m, const mw_contact *c)
+{
+    const char *flag;
+    if (c->line) return MWI_OF_A_LINE;
+    if (!(c->curvature_min > 0.0)) return MWI_IMPOSSIBLE;
+    for (int bit = 0; c->flags >> bit && (flag = mwi_flag(m, bit)) != NULL; bit++)
+        if ((c->flags >> bit & 1u) && mwi_impossible(flag)) return MWI_IMPOSSIBLE;
+    return c->flags ? MWI_BEYOND_LIMITS : MWI_ON_BOTH_FLANKS;
+}
 static inline mwi_worth mwi_worth_of(const mw_model *m, const double *s, const double *x)
 {
     double o[MW_MAX_OBSERVATION];
     mw_contact c;
-    const char *flag;
-    if (mwi_contact_at(m, s, x, o, &c) == MW_LINE_CONTACT) return MWI_OF_A_LINE;
-    if (!(c.curvature_min > 0.0)) return MWI_IMPOSSIBLE;
-    for (int bit = 0; (flag = mwi_flag(m, bit)) != NULL; bit++)
-        if ((c.flags >> bit & 1u) && mwi_impossible(flag)) return MWI_IMPOSSIBLE;
-    return c.flags ? MWI_BEYOND_LIMITS : MWI_ON_BOTH_FLANKS;
+    mwi_contact_at(m, s, x, o, &c);
+    return mwi_worth_in(m, &c);
 }
 typedef struct mwi_search_field {
     const mw_model *m;
@@ -5792,13 +5810,20 @@ static inline int mwi_search(const mw_model *m, const double *s, double *x, mw_i
 enum { MWI_DOUBLINGS = 10 };
 static const double MWI_FIRST = 1.0 / 64.0;
 static const double MWI_STATION = 0.25;
+static const double MWI_FAR = 1.0;
+static const double MWI_HALF_A_TURN = 3.141592653589793;
+static const double MWI_BESIDE = 1e-5;
+enum { MWI_STRIDE_STEPS = 6, MWI_MAX_STRIDES = 4 };
+static const double MWI_CONTRACTION = 0.1;
+static const double MWI_GRID = 1e-8 * 6755399441055744.0;
+static const double MWI_NO_FURTHER = 1e-7;
 typedef struct mwi_pair {
     const mw_model *m;
     const double *p;
     double *s, *work;
     mwi_history reference, walked;
-    double at_reference[MW_MAX_UNKNOWNS], at[2][MW_MAX_UNKNOWNS], beside[MW_MAX_UNKNOWNS];
-    int station, ended;
+    double at_reference[MW_MAX_UNKNOWNS], at[2][MW_MAX_UNKNOWNS], beside[MW_MAX_UNKNOWNS], reach;
+    int station, ended, bent, bend;
 } mwi_pair;
 static inline void mwi_begin_walk(mwi_pair *t)
 {
@@ -5824,6 +5849,7 @@ static inline void mwi_find_reference(mwi_pair *t)
     double angle = mwi_reference_angle(t), next = MWI_FIRST;
     int found = mwi_tangency_at(t, angle, &info);
     t->reference = mwi_no_history();
+    t->bent = t->bend = 0, t->reach = 0.0;
     for (int k = 0; k < 2 * MWI_DOUBLINGS && !found; k++) {
         angle = mwi_reference_angle(t) + (k % 2 ? -next : next);
         if (k % 2) next *= 2.0;
@@ -5886,21 +5912,235 @@ static inline int mwi_by_walk(mwi_pair *t, double phi, double *x, mw_info *info)
     mwi_search(t->m, t->s, x, info);
     return 0;
 }
+static inline void mwi_along_tangent(const mw_model *m, double *s, double phi, const double *x, double to, double *predicted)
+{
+    mwi_copy(predicted, x, m->nx);
+    m->set_phi(s, phi + MWI_BESIDE);
+    m->step(s, predicted);
+    for (int i = 0; i < m->nx; i++) predicted[i] = x[i] + (predicted[i] - x[i]) * ((to - phi) / MWI_BESIDE);
+}
+static inline int mwi_contracted(const mw_model *m, const double *s, double *x, mw_info *info)
+{
+    double longest = MWI_BRANCH_WIDTH;
+    *info = mwi_ended(MW_CONVERGED, 0);
+    for (info->iterations = 1; info->iterations <= MWI_STRIDE_STEPS; info->iterations++) {
+        info->step = m->step(s, x);
+        if (info->step < MWI_FUSED_TOLERANCE) return mwi_within_bounds(m, x);
+        if (!(info->step <= longest)) return 0;
+        longest = MWI_CONTRACTION * info->step;
+    }
+    return 0;
+}
+static inline int mwi_is_of(const mw_model *m, const double *s, int bend, const double *x)
+{
+    double o[MW_MAX_OBSERVATION];
+    mw_contact c;
+    mwi_contact_at(m, s, x, o, &c);
+    return mwi_bend_of(&c) == bend && mwi_touch(m, x, o) >= 0 && mwi_worth_in(m, &c) != MWI_IMPOSSIBLE;
+}
+static inline void mwi_settle(const mw_model *m, const double *s, double *x)
+{
+    double at[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
+    m->scale(s, scale);
+    for (int i = 0; i < m->nx; i++) at[i] = (x[i] + MWI_GRID * scale[i]) - MWI_GRID * scale[i];
+    m->step(s, at);
+    if (m->step(s, at) < MWI_FUSED_TOLERANCE && mwi_near(m, s, at, x, MWI_NO_FURTHER)) mwi_copy(x, at, m->nx);
+}
+static inline int mwi_stride(const mw_model *m, double *s, double phi0, const double *x0, int bend, double phi, double *x,
+                             mw_info *info)
+{
+    mwi_along_tangent(m, s, phi0, x0, phi, x);
+    m->set_phi(s, phi);
+    return mwi_contracted(m, s, x, info) && mwi_is_of(m, s, bend, x);
+}
+static inline int mwi_bend_of_branch(mwi_pair *t)
+{
+    if (!t->bent) {
+        t->m->set_phi(t->s, t->reference.phi[0]);
+        t->bend = mwi_bend(t->m, t->s, t->reference.x[0]);
+    }
+    t->bent = 1;
+    return t->bend;
+}
+static inline int mwi_strode(mwi_pair *t, double phi, double *x, mw_info *info)
+{
+    const double first = t->reference.phi[0];
+    const int bend = mwi_bend_of_branch(t);
+    for (int strides = 1; strides <= MWI_MAX_STRIDES; strides *= 2) {
+        double from[MW_MAX_UNKNOWNS], before = first;
+        mwi_copy(from, t->reference.x[0], t->m->nx);
+        for (int k = 1; k <= strides; k++) {
+            const double next = k == strides ? phi : first + (phi - first) * k / strides;
+            if (!mwi_stride(t->m, t->s, before, from, bend, next, x, info)) break;
+            if (k == strides) return 1;
+            mwi_copy(from, x, t->m->nx);
+            before = next;
+        }
+    }
+    return 0;
+}
+static inline int mwi_faces_away(mwi_pair *t, double phi)
+{
+    const double reference = mwi_reference_angle(t), distance = mwi_abs(phi - reference);
+    double o[MW_MAX_OBSERVATION], x[MW_MAX_UNKNOWNS], turned;
+    if (!(distance > MWI_FAR)) return 0;
+    if (t->reach == 0.0) {
+        mwi_clear(x, t->m->nx);
+        t->m->set_phi(t->s, reference);
+        t->m->observe(t->s, x, o);
+        turned = o[t->m->wheel_angle];
+        t->m->set_phi(t->s, reference + 1.0);
+        t->m->observe(t->s, x, o);
+        t->reach = MWI_HALF_A_TURN / mwi_abs(o[t->m->wheel_angle] - turned);
+    }
+    return distance > t->reach;
+}
+static inline int mwi_out_of_reach(mwi_pair *t, double phi)
+{
+    if (!(mwi_abs(phi) <= MW_MAX_ANGLE)) return MW_BAD_INPUT;
+    return mwi_faces_away(t, phi) ? MW_NO_CONTACT : mwi_angle_in_range(phi) ? 0 : MW_BAD_INPUT;
+}
+static inline int mwi_solved(mwi_pair *t, double phi, double *x, mw_info *info)
+{
+    const int out = mwi_out_of_reach(t, phi);
+    if (out != 0) {
+        *info = mwi_ended(out, 0);
+        return 0;
+    }
+    if (t->reference.count == 0) {
+        mwi_alone(t, phi, x, info);
+        return 0;
+    }
+    if (!mwi_strode(t, phi, x, info) && !mwi_by_walk(t, phi, x, info)) return 0;
+    t->m->set_phi(t->s, phi);
+    mwi_settle(t->m, t->s, x);
+    return 1;
+}
 static inline int mwi_solve(const mw_model *m, const double *p, double phi, double *s, double *work, double *x,
                             mw_info *info)
 {
     mwi_pair t;
     *info = mwi_ended(MW_BAD_INPUT, 0);
     if (!mwi_usable(m)) return MW_BAD_INPUT;
-    const int known = mwi_angle_in_range(phi);
-    if (known) info->guard = m->setup(p, s);
-    if (known && !info->guard) {
+    info->guard = m->setup(p, s);
+    if (!info->guard && mwi_abs(phi) <= MW_MAX_ANGLE) {
         t.m = m, t.p = p, t.s = s, t.work = work;
         mwi_find_reference(&t);
-        if (t.reference.count > 0) mwi_by_walk(&t, phi, x, info);
-        else mwi_alone(&t, phi, x, info);
+        mwi_solved(&t, phi, x, info);
         m->set_phi(s, phi);
     }
+    for (int i = 0; i < m->nx && info->status < 0; i++) x[i] = NAN;
+    return info->status;
+}
+#endif
+
+#ifndef MWI_REDUCE_H
+#define MWI_REDUCE_H
+static const double MWI_TURN = 6.283185307179586;
+static const double MWI_TURN_MIDDLE = 2.4492935982947064e-16;
+static const double MWI_TURN_LAST = -5.989539619436679e-33;
+static const double MWI_TO_INTEGER = 6755399441055744.0;
+static const double MWI_HALVES = 134217729.0;
+static inline double mwi_upper_half(double a)
+{
+    const double c = MWI_HALVES * a;
+    return c - (c - a);
+}
+static inline double mwi_product(double a, double b, double *rest)
+{
+    const double product = a * b, a1 = mwi_upper_half(a), b1 = mwi_upper_half(b), a2 = a - a1, b2 = b - b1;
+    *rest = ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2;
+    return product;
+}
+static inline double mwi_less_pitches(double teeth, double phi, double pair)
+{
+    double turned_rest, pitches_rest, middle_rest;
+    const double turned = mwi_product(phi, teeth, &turned_rest), pitches = mwi_product(pair, MWI_TURN, &pitches_rest);
+    const double middle = mwi_product(pair, MWI_TURN_MIDDLE, &middle_rest);
+    const double above = (turned - pitches) + (turned_rest - pitches_rest);
+    return ((above - middle) - (middle_rest + pair * MWI_TURN_LAST)) / teeth;
+}
+static inline double mwi_reduce(double teeth, double reference, double phi, double *pair)
+{
+    const double pitch = MWI_TURN / teeth;
+    double angle = *pair = NAN, beyond = 1.0;
+    if (!(mwi_abs(phi) <= MW_MAX_ANGLE) || !(teeth >= 1.0)) return NAN;
+    *pair = ((phi - reference) / pitch + MWI_TO_INTEGER) - MWI_TO_INTEGER;
+    for (int k = 0; k < 3 && beyond != 0.0; k++) {
+        angle = mwi_less_pitches(teeth, phi, *pair);
+        beyond = angle - reference < -0.5 * pitch ? -1.0 : angle - reference >= 0.5 * pitch ? 1.0 : 0.0;
+        if (k < 2) *pair += beyond;
+    }
+    return angle;
+}
+#endif
+
+#ifndef MWI_FOLLOW_H
+#define MWI_FOLLOW_H
+static const double MWI_WARM = 0.25;
+enum { MWI_REFERENCE_KEPT, MWI_LAST_KEPT, MWI_BEND_KEPT, MWI_KEPT };
+static inline int mwi_has_memory(const mw_model *m)
+{
+    return m->memory >= 0 && m->ns - m->np - m->memory >= MWI_KEPT + 2 * m->nx;
+}
+static inline int mwi_recall(mwi_pair *t, const double *kept)
+{
+    const int nx = t->m->nx;
+    if (kept[MWI_REFERENCE_KEPT] != kept[MWI_REFERENCE_KEPT]) {
+        const int guard = t->m->setup(t->p, t->s);
+        if (!guard) mwi_find_reference(t);
+        return guard;
+    }
+    t->reference = mwi_no_history();
+    mwi_copy(t->at_reference, kept + MWI_KEPT, nx);
+    t->bent = 1;
+    t->bend = (int)kept[MWI_BEND_KEPT];
+    t->reach = 0.0;
+    if (kept[MWI_REFERENCE_KEPT] < HUGE_VAL) mwi_remember(&t->reference, kept[MWI_REFERENCE_KEPT], t->at_reference);
+    mwi_begin_walk(t);
+    return 0;
+}
+static inline void mwi_keep(mwi_pair *t, double *kept, double last, const double *x)
+{
+    const int nx = t->m->nx, has = t->reference.count > 0;
+    kept[MWI_REFERENCE_KEPT] = has ? t->reference.phi[0] : HUGE_VAL;
+    kept[MWI_LAST_KEPT] = last;
+    kept[MWI_BEND_KEPT] = has ? (double)mwi_bend_of_branch(t) : 0.0;
+    mwi_copy(kept + MWI_KEPT, t->at_reference, nx);
+    mwi_copy(kept + MWI_KEPT + nx, x, nx);
+}
+static inline int mwi_go_on(const mw_model *m, double *s, double *kept, double phi, double *x, mw_info *info)
+{
+    double *last = kept + MWI_KEPT + m->nx, at[MW_MAX_UNKNOWNS];
+    if (!(mwi_abs(phi - kept[MWI_LAST_KEPT]) <= MWI_WARM)) return 0;
+    for (int i = 0; i < m->nx; i++)
+        if (!(x[i] == last[i])) return 0;
+    if (!mwi_stride(m, s, kept[MWI_LAST_KEPT], x, (int)kept[MWI_BEND_KEPT], phi, at, info)) return 0;
+    mwi_settle(m, s, at);
+    kept[MWI_LAST_KEPT] = phi;
+    mwi_copy(last, at, m->nx);
+    mwi_copy(x, at, m->nx);
+    return 1;
+}
+static inline double mwi_own_angle(const mw_model *m, const double *p, double phi, double *pair)
+{
+    return mwi_reduce(p[m->teeth], m->reference < 0 ? 0.0 : p[m->reference], phi, pair);
+}
+static inline int mwi_follow(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
+{
+    double pair, *kept = s + m->memory;
+    const double angle = mwi_own_angle(m, p, phi, &pair);
+    const int known = angle == angle, keeps = mwi_has_memory(m), warm = known && keeps && mwi_go_on(m, s, kept, angle, x, info);
+    if (!known) *info = mwi_ended(MW_BAD_INPUT, 0);
+    else if (!keeps) mwi_solve(m, p, angle, s, work, x, info);
+    else if (!warm) {
+        mwi_pair t;
+        t.m = m, t.p = p, t.s = s, t.work = work;
+        *info = mwi_ended(MW_BAD_INPUT, mwi_recall(&t, kept));
+        if (!info->guard) mwi_keep(&t, kept, mwi_solved(&t, angle, x, info) ? angle : NAN, x);
+        m->set_phi(s, angle);
+    }
+    info->pair = pair, info->angle = angle, info->cold = !warm;
     for (int i = 0; i < m->nx && info->status < 0; i++) x[i] = NAN;
     return info->status;
 }
@@ -5931,7 +6171,27 @@ static inline int spherical_concave_convex_solve(double *s, double phi, double *
     return mwi_solve(&spherical_concave_convex_model, p, phi, s, work, x, record);
 }
 
-/* Contact geometry at a solution x of spherical_concave_convex_solve, s as it left it; o[spherical_concave_convex_NO] as of spherical_concave_convex_observe. spherical_concave_convex_flags has the
+/* The tooth pair whose reference angle is the nearest to input angle phi, rad: *pair is its number, and the result its own
+ * angle, phi less so many pitches, exact to the last digit for |phi| up to MW_MAX_ANGLE, beyond which both are not a number.
+ * Pair k runs as pair 0 does, k pitches later: at phi its contact is that of pair 0 at this angle, the wheel k of its pitches on. */
+static inline double spherical_concave_convex_reduce(const double *s, double phi, double *pair)
+{
+    return mwi_own_angle(&spherical_concave_convex_model, s + (spherical_concave_convex_NS - spherical_concave_convex_NP), phi, pair);
+}
+
+/* The contact of the pair of spherical_concave_convex_reduce at input angle phi, for a drive that turns on: s from spherical_concave_convex_setup; x in: the result
+ * of the call before, which is where this one begins if it is near, or not a number; x out: as of spherical_concave_convex_solve at info->angle,
+ * whatever was asked before, and s set up for that angle. info->pair is the pair's number. Returns info->status. */
+static inline int spherical_concave_convex_follow(double *s, double phi, double *x, mw_info *info)
+{
+    double p[spherical_concave_convex_NP], work[spherical_concave_convex_NP];
+    mw_info unused;
+    mw_info *const record = info ? info : &unused;
+    for (int k = 0; k < spherical_concave_convex_NP; k++) p[k] = s[spherical_concave_convex_NS - spherical_concave_convex_NP + k];
+    return mwi_follow(&spherical_concave_convex_model, p, phi, s, work, x, record);
+}
+
+/* Contact geometry at a solution x of spherical_concave_convex_solve or spherical_concave_convex_follow, s as it left it; o[spherical_concave_convex_NO] as of spherical_concave_convex_observe. spherical_concave_convex_flags has the
  * names of contact->flags. Returns MW_CONVERGED or MW_LINE_CONTACT, or why x is no contact. */
 static inline int spherical_concave_convex_geometry(const double *s, const double *x, double *o, mw_contact *contact)
 {

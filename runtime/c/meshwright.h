@@ -60,6 +60,17 @@ int mw_refine(const mw_model *m, const double *s, double *x, mw_info *info);
 size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n, double *s, double *work, double *x,
                 mw_info *info);
 
+/* Largest input angle to either side, rad: MW_MAX_ANGLE. */
+double mw_largest_angle(void);
+
+/* The pair whose reference angle is the nearest to phi: its number and, returned, its own angle, as of X_reduce. */
+double mw_reduce(const mw_model *m, const double *p, double phi, double *pair);
+
+/* The contact of whichever pair is in mesh at each of phi[n] in turn, as of X_follow: x[n*nx] at info[k].angle of pair
+ * info[k].pair. Returns the number of points that succeeded. */
+size_t mw_turn(const mw_model *m, const double *p, const double *phi, size_t n, double *s, double *work, double *x,
+               mw_info *info);
+
 /* Follow the branch through the solution x0 at phi0 along phi[n], in order, starting near phi0; x[n*nx], info[n].
  * s is set up. Stops where the branch ends or an angle is none: returns how many points were solved; info of the next one says why. */
 size_t mw_follow(const mw_model *m, double *s, double phi0, const double *x0, const double *phi, size_t n, double *x,

@@ -1,7 +1,7 @@
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
-#define MW_MODEL_ABI 6
+#define MW_MODEL_ABI 7
 
 /* A named number. unit is the one used inside ("mm", "rad", ...); key is the design file's key ("" if none), factor
  * turns the key's unit into the inner unit, table is the design file's table. The number lies between lower and
@@ -65,6 +65,8 @@ typedef struct mw_model {
     int error;                   /* index of the transmission error among the unknowns */
     int wheel_angle;             /* index of the wheel angle in the observation */
     int reference;               /* index in p of the reference angle, where the start values lead; -1: angle 0 */
+    int teeth;                   /* index in p of the number of the pinion's teeth or threads */
+    int memory;                  /* index in s from which X_follow keeps what it knows of the pair; -1: nowhere */
     int geometry;                /* in the observation: an orthonormal basis of the tangent plane (6), fixed frame; in it
                                     second fundamental forms (11, 12, 22) of pinion and wheel along their own outward
                                     normals and of the gap along the pinion's; the gap's principal curvatures, the smaller

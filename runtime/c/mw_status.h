@@ -24,17 +24,21 @@ typedef enum mw_status {
     MW_STATUS_END = 1000
 } mw_status;
 
+/* Largest input angle to either side, rad. */
+#define MW_MAX_ANGLE 1e12
+
 /* BEGIN INTERFACE (the Python package reads from here to END INTERFACE) */
 
-/* Largest nx, no, np and nanchor of any model; largest input angle to either side, rad. */
-enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANCHOR = 96, MW_MAX_ANGLE = 10000 };
+/* Largest nx, no, np and nanchor of any model; largest angle, rad, to which one pair of teeth is followed. */
+enum { MW_MAX_UNKNOWNS = 8, MW_MAX_OBSERVATION = 512, MW_MAX_PARAMETERS = 128, MW_MAX_ANCHOR = 96, MW_MAX_TURN = 10000 };
 
 /* Record of one solve. step: largest change of an unknown in the last step, in natural sizes. residual: largest |R|
  * before the last step, rank_gap: smallest over largest pivot of the scaled Jacobian, both 0 where it was not
- * factorised with complete pivoting. guard: 1 + index of a failed guard, else 0. */
+ * factorised with complete pivoting. guard: 1 + index of a failed guard, else 0. Of X_follow: the number of the tooth pair,
+ * its own angle, rad, and whether it was solved from the reference, not from the solution before. */
 typedef struct mw_info {
-    int status, iterations, guard;
-    double step, residual, rank_gap;
+    int status, iterations, guard, cold;
+    double step, residual, rank_gap, pair, angle;
 } mw_info;
 
 /* Contact geometry, fixed frame. Principal relative curvatures (wheel less pinion along the normal, 1/mm):

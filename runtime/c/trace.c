@@ -3,7 +3,7 @@
  * The rule is "Which contact" in meshwright.h. */
 #include "exact.h"
 #include "meshwright.h"
-#include "solver/choice.h"
+#include "solver/follow.h"
 #include "solver/chord.h"
 
 /* Points of a trace go from one to the next in single steps. That none came out on another branch is checked against the
@@ -141,7 +141,7 @@ static size_t trace_in_range(const trace *all, size_t begin)
     trace t = *all;
     const mw_model *m = t.m;
     t.phi += begin, t.x += begin * (size_t)m->nx, t.info += begin;
-    for (t.n = 0; begin + t.n < all->n && mwi_angle_in_range(t.phi[t.n]);) t.n++;
+    for (t.n = 0; begin + t.n < all->n && !mwi_out_of_reach(&t.pair, t.phi[t.n]);) t.n++;
     if (t.n > 0) m->setup(t.pair.p, t.pair.s);
     mwi_begin_walk(&t.pair);
     for (size_t k = 0; k < t.n && t.pair.reference.count == 0; k++)
@@ -167,10 +167,35 @@ size_t mw_trace(const mw_model *m, const double *p, const double *phi, size_t n,
     t.step = HUGE_VAL;
     t.checked = t.walked = 0;
     mwi_find_reference(&t.pair);
-    for (size_t k = trace_in_range(&t, 0); k < n; k = trace_in_range(&t, k + 1)) info[k] = mwi_ended(MW_BAD_INPUT, 0);
+    for (size_t k = trace_in_range(&t, 0); k < n; k = trace_in_range(&t, k + 1))
+        info[k] = mwi_ended(mwi_out_of_reach(&t.pair, phi[k]), 0);
     for (size_t k = 0; k < n; k++) {
         succeeded += info[k].status >= 0;
         for (int i = 0; i < m->nx && info[k].status < 0; i++) x[k * (size_t)m->nx + (size_t)i] = NAN;
+    }
+    return succeeded;
+}
+
+double mw_largest_angle(void)
+{
+    return MW_MAX_ANGLE;
+}
+
+double mw_reduce(const mw_model *m, const double *p, double phi, double *pair)
+{
+    *pair = NAN;
+    return mwi_usable(m) ? mwi_own_angle(m, p, phi, pair) : NAN;
+}
+
+size_t mw_turn(const mw_model *m, const double *p, const double *phi, size_t n, double *s, double *work, double *x, mw_info *info)
+{
+    size_t succeeded = 0;
+    const int nx = mwi_usable(m) ? m->nx : 0, guard = nx ? m->setup(p, s) : 0;
+    const double *before = NULL;
+    for (size_t k = 0; k < n; k++, before = x, x += nx, info++) {
+        for (int i = 0; i < nx; i++) x[i] = before ? before[i] : NAN;
+        *info = mwi_ended(MW_BAD_INPUT, guard);
+        if (nx && !guard) succeeded += mwi_follow(m, p, phi[k], s, work, x, info) >= 0;
     }
     return succeeded;
 }

@@ -6,7 +6,7 @@ import re
 import sys
 from pathlib import Path
 
-ABI = 6
+ABI = 7
 
 
 class Info(ctypes.Structure):

@@ -181,6 +181,14 @@ class Drive:
         result = bounded(self, result)
         return flags.flagged(result, self.edge_window)
 
+    def turn(self, angles):
+        """The pair in mesh and its contact at pinion angles (rad) of any size, for a drive that turns on:
+        :class:`~meshwright.contact.turning.Turning`.
+        """
+        from meshwright.contact.turning import turning
+
+        return turning(self, angles)
+
     @cached_property
     def enclosed(self):
         """The design's state enclosed: :class:`~meshwright.contact.certificate.EnclosedDesign`."""

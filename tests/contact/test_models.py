@@ -38,7 +38,7 @@ def test_a_model_fits_the_runtime(name):
 
 
 def test_python_and_c_refuse_the_same_angles():
-    assert MOST["ANGLE"] == analysis.largest_angle()
+    assert MOST["TURN"] == analysis.largest_angle()
 
 
 def test_the_core_library_knows_no_drive():

@@ -22,10 +22,13 @@ def test_a_trace_in_whole_pitches_follows_one_pair(name):
 @pytest.mark.parametrize("name", ["recess-action-full", "spherical-table-2-3", "face-worm-conical-convex"])
 def test_an_angle_out_of_range_is_bad_input_and_its_neighbours_are_not(name):
     drive = Drive.load(name)
-    angles = np.array([0.0, 0.01, np.nan, 0.02, np.inf, -1e300, 10_000.1, 0.03])
+    angles = np.array([0.0, 0.01, np.nan, 0.02, np.inf, -1e300, 1.1e12, 10_000.1, -9e11, 0.03])
     x, records = analysis.trace(drive, angles)
-    out = ~(np.abs(angles) <= analysis.largest_angle())
+    out = ~(np.abs(angles) <= 1e12)
     assert {text(library().mw_status_word(code)) for code in records["status"][out]} == {"bad_input"}
+    away = ~out & (np.abs(angles) > 1.0)
+    assert {text(library().mw_status_word(code)) for code in records["status"][away]} == {"no_contact"}
+    out |= away
     assert not records["guard"].any() and np.isnan(x[out]).all()
     alone, statuses = analysis.trace(drive, angles[~out])
     assert x[~out] == pytest.approx(alone, abs=1e-11)

@@ -43,7 +43,8 @@ int main(void)
 {
     double p[X(NP)], phi, s[X(NS)], x[X(NX)], other[X(NX)], state[X(NS)], work[X(NP)];
     const mw_model *m = &X(model);
-    mw_info info, by_library;
+    double s_next[X(NS)], next[X(NX)];
+    mw_info info, by_library, followed;
     long solved = 0, differ = 0, garbage = 0, numbers = 0, count = 0; /* info may be NULL: now and then it is */
     while (fread(&phi, sizeof phi, 1, stdin) == 1 && fread(p, sizeof p, 1, stdin) == 1) {
         double distance = 0.0, normals = 0.0, size = 0.0;
@@ -54,6 +55,13 @@ int main(void)
         if (guard && status != MW_BAD_INPUT) garbage++;
         if (strcmp(X(status_text)(status), "no such status") == 0) garbage++;
         if (count % 16 == 0 && X(solve)(s, phi, x, NULL) != status) differ++;
+        for (int i = 0; i < X(NX); i++) next[i] = NAN;
+        X(setup)(p, s_next);
+        X(follow)(s_next, phi, next, &followed);
+        mw_turn(m, p, &phi, 1, state, work, other, &by_library);
+        if (followed.status != by_library.status || memcmp(next, other, sizeof other) != 0) differ++;
+        if (guard && followed.status != MW_BAD_INPUT) garbage++;
+        if (X(follow)(s_next, phi, next, NULL) != followed.status || memcmp(next, other, sizeof other) != 0) differ++;
         if (status < 0) {
             for (int i = 0; i < X(NX); i++) numbers += x[i] == x[i];
             continue;

@@ -404,6 +404,16 @@ static void follow(reader *r, fuzzed *f)
     for (size_t k = 0; k < n; k++) count += info[k].status >= 0;
     if (count != each) fail("the points of a branch are not as many as was said");
     if (mw_observe(m, f->s, phi, x, n, o) == MW_BAD_INPUT) fail("a table that is refused");
+    double pair;
+    const size_t turned = mw_turn(m, f->p, phi, n, f->s, f->work, x, info);
+    for (size_t k = count = 0; k < n; k++) {
+        count += info[k].status >= 0;
+        const double own = mw_reduce(m, f->p, phi[k], &pair);
+        if (info[k].guard == 0 && info[k].angle != own && own == own) fail("two calls that reduce an angle differ");
+        judge(r, m, f->s, info[k].angle, x + k * nx, info[k].status);
+    }
+    if (count != turned) fail("the contacts of a turning drive are not as many as was said");
+    m->setup(f->p, f->s);
     calls += 2;
 }
 

@@ -21,6 +21,14 @@ SOLVED = {
     mw_info *const record = info ? info : &unused;
     for (int k = 0; k < X_NP; k++) p[k] = s[X_NS - X_NP + k];
     return mwi_solve(&X_model, p, phi, s, work, x, record);""",
+    "reduce": """
+    return mwi_own_angle(&X_model, s + (X_NS - X_NP), phi, pair);""",
+    "follow": """
+    double p[X_NP], work[X_NP];
+    mw_info unused;
+    mw_info *const record = info ? info : &unused;
+    for (int k = 0; k < X_NP; k++) p[k] = s[X_NS - X_NP + k];
+    return mwi_follow(&X_model, p, phi, s, work, x, record);""",
     "geometry": """
     const int kind = mwi_contact_at(&X_model, s, x, o, contact), touch = mwi_touch(&X_model, x, o);
     return touch < 0 ? touch : kind;""",

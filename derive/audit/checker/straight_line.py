@@ -139,8 +139,8 @@ def numbered(text: str) -> str:
     return text.replace(KEPT.replace("X", prefix), kept)
 
 
-#: How a setup keeps the parameters.
-KEPT = "    for (int k = 0; k < X_NP; k++) s[X_NS - X_NP + k] = p[k];\n"
+#: How a setup keeps the parameters, and forgets what was known of its pair.
+KEPT = "    s[X_MEMORY] = NAN;\n    for (int k = 0; k < X_NP; k++) s[X_NS - X_NP + k] = p[k];\n"
 
 
 def letter_of(name: str) -> str:

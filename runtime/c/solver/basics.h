@@ -40,7 +40,8 @@ static inline mw_info mwi_ended(int status, int guard)
     info.status = status;
     info.iterations = 0;
     info.guard = guard;
-    info.step = info.residual = info.rank_gap = 0.0;
+    info.cold = 1;
+    info.step = info.residual = info.rank_gap = info.pair = info.angle = 0.0;
     return info;
 }
 
@@ -73,10 +74,10 @@ static inline int mwi_usable(const mw_model *m)
     return m->no >= 0 && m->no <= MW_MAX_OBSERVATION && m->np >= 0 && m->np <= MW_MAX_PARAMETERS;
 }
 
-/* Whether an input angle is one that a drive can be solved for. */
+/* Whether an input angle is one to which a pair of teeth can be followed. */
 static inline int mwi_angle_in_range(double phi)
 {
-    return mwi_abs(phi) <= (double)MW_MAX_ANGLE; /* not-a-number is not */
+    return mwi_abs(phi) <= (double)MW_MAX_TURN; /* not-a-number is not */
 }
 
 #endif

@@ -85,12 +85,17 @@ static inline int mwi_near(const mw_model *m, const double *s, const double *a, 
 
 /* Sign of the relative Gaussian curvature, 0 along a line of contact. Along a branch it changes only where the equations
  * are singular, or a flank is: of solutions that differ in it one is of another branch, or beyond such a place. */
+static inline int mwi_bend_of(const mw_contact *c)
+{
+    return c->line ? 0 : c->curvature_min * c->curvature_max > 0.0 ? 1 : -1;
+}
+
 static inline int mwi_bend(const mw_model *m, const double *s, const double *x)
 {
     double o[MW_MAX_OBSERVATION];
     mw_contact c;
     mwi_contact_at(m, s, x, o, &c);
-    return c.line ? 0 : c.curvature_min * c.curvature_max > 0.0 ? 1 : -1;
+    return mwi_bend_of(&c);
 }
 
 /* Give a history of one point a second one close by, near[nx], on the side of phi, so that it has a direction: a point

@@ -13,17 +13,34 @@ static const double MWI_FIRST = 1.0 / 64.0; /* rad */
 /* Between stations the unknowns move by a part of their natural sizes. */
 static const double MWI_STATION = 0.25; /* rad */
 
+/* No tooth turns away from its mate before this angle, rad, and no drive is so quick that half a turn of the wheel takes less. */
+static const double MWI_FAR = 1.0;
+static const double MWI_HALF_A_TURN = 3.141592653589793;
+
+/* From a point of a branch so far on, rad, one Newton step is the tangent's, to as many digits as a prediction needs. */
+static const double MWI_BESIDE = 1e-5;
+
+/* A stride along a branch: no more Newton steps, each a tenth of the one before. So many strides at most. */
+enum { MWI_STRIDE_STEPS = 6, MWI_MAX_STRIDES = 4 };
+static const double MWI_CONTRACTION = 0.1;
+
+/* Solutions are made the same, to the last bit, wherever Newton's method came from: rounded to this part of a natural size, then
+ * two steps, the second of which is round-off. */
+static const double MWI_GRID = 1e-8 * 6755399441055744.0;
+static const double MWI_NO_FURTHER = 1e-7;
+
 /* A tooth pair and the branch of its reference, walked along stations at equal spacing from it, so that every angle is
  * reached by the same steps whichever angles are asked for. p[np] complete; s[ns] and work[np] are written. The newest of
  * `walked` is the station reached, counted from the reference and negative below it; `ended` says why none comes after
- * it, 0 where one may. */
+ * it, 0 where one may. `bend`, once `bent`, is the sign of curvature of the branch; the wheel
+ * turns half a turn within `reach`, 0: not known yet. */
 typedef struct mwi_pair {
     const mw_model *m;
     const double *p;
     double *s, *work;
     mwi_history reference, walked;
-    double at_reference[MW_MAX_UNKNOWNS], at[2][MW_MAX_UNKNOWNS], beside[MW_MAX_UNKNOWNS];
-    int station, ended;
+    double at_reference[MW_MAX_UNKNOWNS], at[2][MW_MAX_UNKNOWNS], beside[MW_MAX_UNKNOWNS], reach;
+    int station, ended, bent, bend;
 } mwi_pair;
 
 static inline void mwi_begin_walk(mwi_pair *t)
@@ -57,6 +74,7 @@ static inline void mwi_find_reference(mwi_pair *t)
     double angle = mwi_reference_angle(t), next = MWI_FIRST;
     int found = mwi_tangency_at(t, angle, &info);
     t->reference = mwi_no_history();
+    t->bent = t->bend = 0, t->reach = 0.0;
     for (int k = 0; k < 2 * MWI_DOUBLINGS && !found; k++) {
         angle = mwi_reference_angle(t) + (k % 2 ? -next : next);
         if (k % 2) next *= 2.0;
@@ -130,6 +148,128 @@ static inline int mwi_by_walk(mwi_pair *t, double phi, double *x, mw_info *info)
     return 0;
 }
 
+/* The tangent of the branch at its point x at phi: predicted[nx] is the point of it at `to`. */
+static inline void mwi_along_tangent(const mw_model *m, double *s, double phi, const double *x, double to, double *predicted)
+{
+    mwi_copy(predicted, x, m->nx);
+    m->set_phi(s, phi + MWI_BESIDE);
+    m->step(s, predicted);
+    for (int i = 0; i < m->nx; i++) predicted[i] = x[i] + (predicted[i] - x[i]) * ((to - phi) / MWI_BESIDE);
+}
+
+/* Newton's method from x where its first step is no longer than MWI_BRANCH_WIDTH and each further one a tenth. */
+static inline int mwi_contracted(const mw_model *m, const double *s, double *x, mw_info *info)
+{
+    double longest = MWI_BRANCH_WIDTH;
+    *info = mwi_ended(MW_CONVERGED, 0);
+    for (info->iterations = 1; info->iterations <= MWI_STRIDE_STEPS; info->iterations++) {
+        info->step = m->step(s, x);
+        if (info->step < MWI_FUSED_TOLERANCE) return mwi_within_bounds(m, x);
+        if (!(info->step <= longest)) return 0;
+        longest = MWI_CONTRACTION * info->step;
+    }
+    return 0;
+}
+
+/* Whether x is a contact that bodies can make, on a branch of this sign of curvature. */
+static inline int mwi_is_of(const mw_model *m, const double *s, int bend, const double *x)
+{
+    double o[MW_MAX_OBSERVATION];
+    mw_contact c;
+    mwi_contact_at(m, s, x, o, &c);
+    return mwi_bend_of(&c) == bend && mwi_touch(m, x, o) >= 0 && mwi_worth_in(m, &c) != MWI_IMPOSSIBLE;
+}
+
+static inline void mwi_settle(const mw_model *m, const double *s, double *x)
+{
+    double at[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
+    m->scale(s, scale);
+    for (int i = 0; i < m->nx; i++) at[i] = (x[i] + MWI_GRID * scale[i]) - MWI_GRID * scale[i];
+    m->step(s, at);
+    if (m->step(s, at) < MWI_FUSED_TOLERANCE && mwi_near(m, s, at, x, MWI_NO_FURTHER)) mwi_copy(x, at, m->nx);
+}
+
+/* From the point x0 at phi0 of a branch with this sign of curvature to that at phi. Returns 0 where that does not serve. */
+static inline int mwi_stride(const mw_model *m, double *s, double phi0, const double *x0, int bend, double phi, double *x,
+                             mw_info *info)
+{
+    mwi_along_tangent(m, s, phi0, x0, phi, x);
+    m->set_phi(s, phi);
+    return mwi_contracted(m, s, x, info) && mwi_is_of(m, s, bend, x);
+}
+
+static inline int mwi_bend_of_branch(mwi_pair *t)
+{
+    if (!t->bent) {
+        t->m->set_phi(t->s, t->reference.phi[0]);
+        t->bend = mwi_bend(t->m, t->s, t->reference.x[0]);
+    }
+    t->bent = 1;
+    return t->bend;
+}
+
+/* The point of the branch at phi in as few strides from the reference as serve. Returns 0 where so many do not. */
+static inline int mwi_strode(mwi_pair *t, double phi, double *x, mw_info *info)
+{
+    const double first = t->reference.phi[0];
+    const int bend = mwi_bend_of_branch(t);
+    for (int strides = 1; strides <= MWI_MAX_STRIDES; strides *= 2) {
+        double from[MW_MAX_UNKNOWNS], before = first;
+        mwi_copy(from, t->reference.x[0], t->m->nx);
+        for (int k = 1; k <= strides; k++) {
+            const double next = k == strides ? phi : first + (phi - first) * k / strides;
+            if (!mwi_stride(t->m, t->s, before, from, bend, next, x, info)) break;
+            if (k == strides) return 1;
+            mwi_copy(from, x, t->m->nx);
+            before = next;
+        }
+    }
+    return 0;
+}
+
+/* Whether the wheel has turned the tooth of the pair away from the pinion. */
+static inline int mwi_faces_away(mwi_pair *t, double phi)
+{
+    const double reference = mwi_reference_angle(t), distance = mwi_abs(phi - reference);
+    double o[MW_MAX_OBSERVATION], x[MW_MAX_UNKNOWNS], turned;
+    if (!(distance > MWI_FAR)) return 0;
+    if (t->reach == 0.0) {
+        mwi_clear(x, t->m->nx);
+        t->m->set_phi(t->s, reference);
+        t->m->observe(t->s, x, o);
+        turned = o[t->m->wheel_angle];
+        t->m->set_phi(t->s, reference + 1.0);
+        t->m->observe(t->s, x, o);
+        t->reach = MWI_HALF_A_TURN / mwi_abs(o[t->m->wheel_angle] - turned);
+    }
+    return distance > t->reach;
+}
+
+/* Why the pair cannot be solved for phi, 0 where it can be tried. */
+static inline int mwi_out_of_reach(mwi_pair *t, double phi)
+{
+    if (!(mwi_abs(phi) <= MW_MAX_ANGLE)) return MW_BAD_INPUT;
+    return mwi_faces_away(t, phi) ? MW_NO_CONTACT : mwi_angle_in_range(phi) ? 0 : MW_BAD_INPUT;
+}
+
+/* The contact at phi. Returns 1 where it is a point of the branch. */
+static inline int mwi_solved(mwi_pair *t, double phi, double *x, mw_info *info)
+{
+    const int out = mwi_out_of_reach(t, phi);
+    if (out != 0) {
+        *info = mwi_ended(out, 0);
+        return 0;
+    }
+    if (t->reference.count == 0) {
+        mwi_alone(t, phi, x, info);
+        return 0;
+    }
+    if (!mwi_strode(t, phi, x, info) && !mwi_by_walk(t, phi, x, info)) return 0;
+    t->m->set_phi(t->s, phi);
+    mwi_settle(t->m, t->s, x);
+    return 1;
+}
+
 /* The contact at phi, not a number where there is none; s[ns] is left set up for it. Returns info->status. */
 static inline int mwi_solve(const mw_model *m, const double *p, double phi, double *s, double *work, double *x,
                             mw_info *info)
@@ -137,13 +277,11 @@ static inline int mwi_solve(const mw_model *m, const double *p, double phi, doub
     mwi_pair t;
     *info = mwi_ended(MW_BAD_INPUT, 0);
     if (!mwi_usable(m)) return MW_BAD_INPUT;
-    const int known = mwi_angle_in_range(phi);
-    if (known) info->guard = m->setup(p, s);
-    if (known && !info->guard) {
+    info->guard = m->setup(p, s);
+    if (!info->guard && mwi_abs(phi) <= MW_MAX_ANGLE) {
         t.m = m, t.p = p, t.s = s, t.work = work;
         mwi_find_reference(&t);
-        if (t.reference.count > 0) mwi_by_walk(&t, phi, x, info);
-        else mwi_alone(&t, phi, x, info);
+        mwi_solved(&t, phi, x, info);
         m->set_phi(s, phi);
     }
     for (int i = 0; i < m->nx && info->status < 0; i++) x[i] = NAN;

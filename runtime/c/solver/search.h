@@ -33,16 +33,22 @@ static const double MWI_SEARCH_SAME_ANGLE = 1e-11;
  * one of a line of them. */
 typedef enum mwi_worth { MWI_IMPOSSIBLE, MWI_BEYOND_LIMITS, MWI_ON_BOTH_FLANKS, MWI_OF_A_LINE } mwi_worth;
 
+static inline mwi_worth mwi_worth_in(const mw_model *m, const mw_contact *c)
+{
+    const char *flag;
+    if (c->line) return MWI_OF_A_LINE;
+    if (!(c->curvature_min > 0.0)) return MWI_IMPOSSIBLE;
+    for (int bit = 0; c->flags >> bit && (flag = mwi_flag(m, bit)) != NULL; bit++)
+        if ((c->flags >> bit & 1u) && mwi_impossible(flag)) return MWI_IMPOSSIBLE;
+    return c->flags ? MWI_BEYOND_LIMITS : MWI_ON_BOTH_FLANKS;
+}
+
 static inline mwi_worth mwi_worth_of(const mw_model *m, const double *s, const double *x)
 {
     double o[MW_MAX_OBSERVATION];
     mw_contact c;
-    const char *flag;
-    if (mwi_contact_at(m, s, x, o, &c) == MW_LINE_CONTACT) return MWI_OF_A_LINE;
-    if (!(c.curvature_min > 0.0)) return MWI_IMPOSSIBLE;
-    for (int bit = 0; (flag = mwi_flag(m, bit)) != NULL; bit++)
-        if ((c.flags >> bit & 1u) && mwi_impossible(flag)) return MWI_IMPOSSIBLE;
-    return c.flags ? MWI_BEYOND_LIMITS : MWI_ON_BOTH_FLANKS;
+    mwi_contact_at(m, s, x, o, &c);
+    return mwi_worth_in(m, &c);
 }
 
 /* What the search needs of a model at one angle; the middle of the flanks is that of the start values. */

@@ -17,7 +17,7 @@ from meshwright.base.drives import SHIPPED, cache_folder, folders, object_of
 from meshwright.base.errors import LibraryError
 
 #: Version of the model table (mw_model.h) that this package reads.
-ABI = 6
+ABI = 7
 
 _loading, _thread = threading.Lock(), threading.local()
 

@@ -13,8 +13,8 @@ from meshwright.contact.results import OFF_TIP, TCA
 
 
 def largest_angle():
-    """Largest input angle to either side, rad."""
-    return float(library().MW_MAX_ANGLE)
+    """Largest angle to either side, rad, to which one pair of teeth is followed."""
+    return float(library().MW_MAX_TURN)
 
 
 def checked_angles(angles):

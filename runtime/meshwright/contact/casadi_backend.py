@@ -30,7 +30,7 @@ def _table(name, places):
     compiled = model(name, places)
     arithmetic = _Arithmetic(metadata.described(name, places), compiled)
     table = ffi.new("mw_model *", compiled[0])
-    table.ns = arithmetic.parameters + 1
+    table.ns, table.memory = arithmetic.parameters + 1, -1
     table.kernels = table.anchor = table.by_anchor = ffi.NULL  # of the compiled arithmetic
     callbacks = {key: callback(ffi.typeof(getattr(table, key)), getattr(arithmetic, key)) for key in REPLACED}
     for key, function in callbacks.items():
