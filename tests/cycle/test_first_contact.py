@@ -204,7 +204,7 @@ def test_the_edge_of_another_pair_carries_that_touches_before_every_tangency(cap
 def test_the_report_says_what_touches_before_a_tangency():
     analysis = analyse(Drive.from_tables(EDGE_FIRST), lambda text: None)
     said = [f.text for f in findings(analysis) if "first contact is" in f.text]
-    assert len(said) == 1 and "edge of the wheel (left face)" in said[0] and "µm inside the other flank" in said[0]
+    assert len(said) == 1 and "edge of the wheel (right face)" in said[0] and "µm inside the other flank" in said[0]
 
 
 @pytest.mark.parametrize("name", ["face-worm-conical-convex", "plain-zc", "bevel-formate"])
