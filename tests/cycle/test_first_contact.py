@@ -195,16 +195,16 @@ def test_the_edge_of_another_pair_carries_that_touches_before_every_tangency(cap
     assert main(["loaded", name, *misalignment, "--torque-nm", "20", "--phi-deg=10.83", "--json", "-"]) == 0
     (point,) = json.loads(capsys.readouterr().out)["points"]
     edge = next(pair for pair in point["pairs"] if pair["pairs_later"] == 0)
-    assert (edge["kind"], edge["first_contact"]) == ("edge", "edge of the pinion (face)") and edge["force_n"] > 0.0
+    assert (edge["kind"], edge["first_contact"]) == ("edge", "edge of the pinion (left face)") and edge["force_n"] > 0.0
     assert point["unloaded_transmission_error_arcsec"] == pytest.approx(first.errors[0] / ARCSEC, abs=1e-6)
-    assert "pair +0 touches first with the edge of the pinion (face)" in point["message"]
+    assert "pair +0 touches first with the edge of the pinion (left face)" in point["message"]
 
 
 @pytest.mark.validate
 def test_the_report_says_what_touches_before_a_tangency():
     analysis = analyse(Drive.from_tables(EDGE_FIRST), lambda text: None)
     said = [f.text for f in findings(analysis) if "first contact is" in f.text]
-    assert len(said) == 1 and "edge of the wheel (face)" in said[0] and "µm inside the other flank" in said[0]
+    assert len(said) == 1 and "edge of the wheel (right face)" in said[0] and "µm inside the other flank" in said[0]
 
 
 @pytest.mark.parametrize("name", ["face-worm-conical-convex", "plain-zc", "bevel-formate"])

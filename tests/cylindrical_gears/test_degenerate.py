@@ -24,7 +24,7 @@ def solved(design, errors=None, angles=ANGLES):
 def test_unmodified_parallel_gears_that_are_tilted_touch_at_the_end_of_a_face(design, errors):
     found = solved(design, errors)
     assert set(found.status) == {"edge_contact"}
-    assert all("face of the" in text or "(face)" in text for text in found.messages)
+    assert all("face of the" in text or "face)" in text for text in found.messages)
     assert np.abs(np.abs(found.points[:, 2]) - 10.0).max() < 0.1
 
 

@@ -103,7 +103,7 @@ def test_an_edge_that_leads_carries_a_small_load_alone_and_shares_a_large_one(ge
     """And the neighbour's edge, some µm away, comes in when the teeth have given way by as much."""
     small, large = (loaded_contact(gear, 0.3 * gear.pinion.pitch, 3, _load(t), None) for t in (0.1, 200.0))
     edge = next(pair for pair in small.pairs if pair.contact.touch.edge)
-    assert edge.contact.touch.edge == "edge of the wheel (face)" and edge.apart == 0.0 and edge.hertz is None
+    assert edge.contact.touch.edge == "edge of the wheel (left face)" and edge.apart == 0.0 and edge.hertz is None
     assert edge.force == sum(pair.force for pair in small.pairs) > 0.0
     carrying = [pair for pair in large.pairs if pair.force > 0.0]
     assert len(carrying) > 1 and any(not pair.contact.touch.edge for pair in carrying)
@@ -247,10 +247,10 @@ def test_the_command_names_edges_and_gaps(capsys, monkeypatch):
     assert main([*words, "--set", "misalignment.horizontal_deg=0.08"]) == 0
     (point,) = json.loads(capsys.readouterr().out)["points"]
     edge = next(pair for pair in point["pairs"] if pair["pairs_later"] == -1)
-    assert (edge["kind"], edge["first_contact"]) == ("edge", "edge of the pinion (face)")
+    assert (edge["kind"], edge["first_contact"]) == ("edge", "edge of the pinion (left face)")
     assert edge["gap_um"] == pytest.approx(2.74, abs=0.01) and edge["force_n"] > 100.0
     assert edge["hertz_pressure_mpa"] is None
-    assert "pair -1 touches first with the edge of the pinion (face)" in point["message"]
+    assert "pair -1 touches first with the edge of the pinion (left face)" in point["message"]
     assert point["unloaded_transmission_error_arcsec"] > point["loaded_transmission_error_arcsec"]
     assert sum(pair["share"] for pair in point["pairs"]) == pytest.approx(1.0)
 
@@ -258,4 +258,4 @@ def test_the_command_names_edges_and_gaps(capsys, monkeypatch):
 def test_finite_elements_about_tangencies_refuse_an_edge_that_is_first(capsys, tmp_path):
     words = ["--torque-nm", "60", "--phi-deg=2.6", "--set", "misalignment.horizontal_deg=0.08"]
     assert main(["fe", "helical-crowned", *words, "--folder", str(tmp_path / "fe")]) == 2
-    assert "edge of the wheel (face)" in capsys.readouterr().err
+    assert "edge of the wheel (left face)" in capsys.readouterr().err

@@ -16,6 +16,7 @@ from meshwright.commands.progress import progress
 from meshwright.contact.flags import not_first
 from meshwright.contact.friction import efficiency
 from meshwright.contact.velocities import velocities
+from meshwright.cycle.certified_extreme import certificates_of
 from meshwright.cycle.first_contact import Search
 
 #: More directions than this are taken for a mistake.
@@ -85,15 +86,17 @@ def run(options):
         _add_other_contacts(points, drive, result)
     if options.certify:
         firsts = drive.certify_first(result.angles, result, certificates).to_plain(result)
-        for point, certificate, found in zip(points, certificates.to_plain(), firsts, strict=True):
-            point["certificate"] = certificate | {"first_contact": found}
+        others = certificates_of(drive, result)
+        for point, certificate, found, other in zip(points, certificates.to_plain(), firsts, others, strict=True):
+            point["certificate"] = certificate | {"first_contact": found} | other
     if options.json:
         document = {"schema": "meshwright.tca/1", "drive": drive.design.family, "design": drive.design.as_solved()}
         write_json(options.json, document | {"points": points})
     if options.csv:
         write_csv(options.csv, *_columns(points))
     if not options.json and not options.csv:
-        write_text("-", f"{_table(drive, points)}{_not_aligned(drive, points)}{certificates.said()}\n")
+        said = f"{_not_aligned(drive, points)}{_enclosed(points)}{certificates.said()}"
+        write_text("-", f"{_table(drive, points)}{said}\n")
     return 0 if result.complete else 1
 
 
@@ -206,8 +209,19 @@ def _not_aligned(drive, points):
     said = [f"on an edge or at a corner at {count} of {len(points)} angles"]
     if math.isfinite(rise := _out_of_line(drive, points)):
         said.append(f"from one end of the contact line to the other the flanks are out of line by {1000 * rise:.3g} µm")
+    wheel_pitch = math.degrees(abs(drive.ratio) * drive.pitch()) * 3600.0
+    if any(abs(p["transmission_error_arcsec"]) > wheel_pitch for p in points if p["status"] in ON_EDGES):
+        said.append("somewhere the wheel turns by more than its pitch until this pair touches: other pairs do before")
     said.append(f"errors of the assembly: {given}" if given else "the assembly has no errors")
     return "; ".join(said) + "\n"
+
+
+def _enclosed(points):
+    """How many errors of contacts that are no tangencies are proved to lie between two numbers; nothing if none."""
+    radii = [p["certificate"]["radius"] for p in points if p.get("certificate", {}).get("outcome") == "enclosed"]
+    if not radii:
+        return ""
+    return f"enclosed: the error of {len(radii)} contacts on lines, edges or corners, within {max(radii):.0e} arcsec\n"
 
 
 def _out_of_line(drive, points):
@@ -253,6 +267,8 @@ def _shown(point):
     """What is proved of a point, if that was asked for."""
     if (certificate := point.get("certificate")) is None:
         return ()
+    if certificate["outcome"] == "enclosed":
+        return (f"(touches first, surely, within {certificate['radius']:.0e} arcsec of this error)",)
     if certificate["outcome"] != "unique":
         return (f"({certificate['outcome']}: {certificate['reason']})",)
     first = certificate["first_contact"]

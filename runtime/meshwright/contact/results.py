@@ -95,6 +95,8 @@ class TCA:
         """
         error = _put(self.error, rows, others.error)
         known, reference = np.flatnonzero(np.isfinite(error)), self.reference_error
+        if (same := np.flatnonzero(self.error == reference)).size:  # it stays the error of that point
+            reference = float(error[same[0]])
         if not np.isfinite(reference) and known.size:
             reference = float(error[known[np.argmin(np.abs(self.angles[known]))]])
         columns = {name: _put(getattr(self, name), rows, getattr(others, name)) for name in self._columns}

@@ -113,6 +113,7 @@ QUANTITIES = {
     "ease_off": "how far a flank stands back from the surface that its mate would envelop at a constant ratio",
     "first_contact": "where the bounded flanks, edges included, meet first as the wheel turns towards the pinion: in a "
     "point inside both (tangency), along a line, on an edge or at a corner",
+    "enclosed": "of the error of a line, an edge or a corner: proved that the flanks touch first between two errors",
     "edges": "which edges of the teeth hold a place of first contact; a face has a left and a right end, the right one "
     "at larger z of its member, or a toe and a heel",
     "contact_line": "the line along which flanks, or an edge and a flank, touch: its points, what ends it, its length",

@@ -143,6 +143,9 @@ function table(id, listed) {
   }));
 }
 
+/* What the page does not look for, where it finds no tangency. */
+const EDGES = "; this page looks for tangencies alone: an edge or a corner may touch, which meshwright tca and report tell";
+
 /* Status and flags of the cycle and of one row, in words: [kind, sentence]. */
 function sentences(row) {
   const { rows } = state, n = rows.length, found = [], by = new Map(), flags = new Map();
@@ -152,7 +155,7 @@ function sentences(row) {
   }
   for (const [code, count] of by) {
     const it = data.status[code];
-    found.push([code >= 0 ? code === 2 ? "note" : "good" : "warn", `${count} of ${n} positions: ${it.word.replaceAll("_", " ")} – ${it.words}`]);
+    found.push([code >= 0 ? code === 2 ? "note" : "good" : "warn", `${count} of ${n} positions: ${it.word.replaceAll("_", " ")} – ${it.words}${code < 0 ? EDGES : ""}`]);
   }
   for (const [name, count] of flags) {
     const it = data.flags.find(f => f.name === name);
