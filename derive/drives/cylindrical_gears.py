@@ -14,14 +14,14 @@ from derive.drives import cylindrical_gears_keys as k
 from derive.drives import outlines
 from derive.drives.cylindrical_gears_keys import PINION, WHEEL, Gear
 from derive.drives.cylindrical_gears_rexs import EXCHANGE
+from derive.drives.rack_generated import body, fillet_margins, rolled, solid_teeth, undercut
 from derive.language import vectors as v
 from derive.language.chain import Rx, Ry, Rz, placement, translation
 from derive.language.choice import excess, is_zero, only_where_zero
 from derive.language.contact import contact
 from derive.language.definitions import Definitions
-from derive.language.drive import Body, DesignSystem, Drive, Loading, Margin, Region, Role, Source, System, body_point
-from derive.language.envelope import envelope, explicit
-from derive.language.functions import Function, LeastTeeth, Result, solid
+from derive.language.drive import DesignSystem, Drive, Loading, Margin, Region, Role, Source, System, body_point
+from derive.language.functions import LeastTeeth
 from derive.language.replace import replaced
 from derive.language.surface import Surface
 from derive.language.symbols import Guard, Quantity, Unknown, rotation_angle
@@ -97,12 +97,7 @@ def _rack_body(gear, definitions):
 
 
 def _rolled(cutter, gear, angle):
-    """The envelope of a cutter's surface on the gear that rolls on it, and the turn of the gear in generation."""
-    phi = rotation_angle(angle, f"turn of the {gear.name} in generation", "gen")
-    rolling = Rz(phi) @ translation(x=gear.reference_radius, y=-gear.reference_radius * phi)
-    surface, solved = explicit(envelope(cutter, rolling, phi))
-    proved = (f"cylindrical_gears/{key}" for key in ("meshing", "explicit", "tangent", "undercut"))
-    return surface.on(*proved), solved.symbol
+    return rolled(cutter, gear.name, gear.reference_radius, angle, "cylindrical_gears")
 
 
 def cylindrical_gears():
@@ -132,7 +127,7 @@ def cylindrical_gears():
         wheel_angle=phi_2,
         pinion=pinion,
         wheel=wheel,
-        regions=tuple(Region(t.gear.name, "fillet", t.fillet, s, _fillet_margins(t), "axial") for t in teeth),
+        regions=tuple(Region(t.gear.name, "fillet", t.fillet, s, fillet_margins(t, alpha), "axial") for t in teeth),
         unknowns=(*_unknowns(pinion_tooth), *_unknowns(wheel_tooth), Unknown(error)),
         residual=contact(pinion.placed, wheel.placed),
         definitions=definitions,
@@ -158,55 +153,22 @@ def cylindrical_gears():
 
 def _undercut(tooth):
     """Undercut is sought from far beyond the start of the involute, on the other side of the axis, to the tip."""
-    gear, rack = tooth.gear, tooth.rack
+    gear = tooth.gear
     start, end = k.EDGE_START, gear.edge_end
     ends = {"first": start - 2 * gear.reference_radius, "start": start, "middle": (start + end) / 2, "last": end}
-    return (
-        Function(
-            f"undercut_range_{gear.name}",
-            "positions on the edge of the rack between which undercut is sought",
-            (),
-            tuple(Result(name, (value,), "mm", gear.name) for name, value in ends.items()),
-        ),
-        Function(
-            f"undercut_place_{gear.name}",
-            "position on the edge of the rack from its datum line",
-            tooth.surface.parameters,
-            (Result("edge_position", (rack.along,), "mm", gear.name),),
-        ),
-    )
+    return undercut(tooth, tooth.rack.along, "rack", " from its datum line", ends)
 
 
 def _solid(tooth):
     """A modified flank meets the tip near the end of the edge, not far beyond it."""
-    gear, half_face = tooth.gear, tooth.gear.face_width.symbol / 2
-    sizes = {
-        "module": (m, "mm"),
-        "teeth": (gear.teeth.symbol, ""),
-        "root_radius": (gear.reference_radius + gear.shift - k.dedendum.symbol, "mm"),
-        "face_first": (-half_face, "mm"),
-        "face_last": (half_face, "mm"),
-        "flank_root": (k.EDGE_START, "mm"),
-        "tip_first": (k.EDGE_START, "mm"),
-        "tip_last": (gear.edge_end + m / 4, "mm"),
-        "fillet_junction": (0, "rad"),
-        "fillet_land": (sp.pi / 2 - alpha, "rad"),
-    }
-    return solid(gear.name, sizes)
+    gear = tooth.gear
+    root_radius = gear.reference_radius + gear.shift - k.dedendum.symbol
+    return solid_teeth(gear, m, alpha, root_radius, (k.EDGE_START, gear.edge_end + m / 4))
 
 
 def _body(tooth, motion):
-    name, rack = tooth.gear.name, tooth.rack
-    return Body(
-        name,
-        tooth.surface,
-        motion,
-        reference={rack.along: tooth.gear.edge_end, rack.axial: sp.Integer(0)},
-        point=body_point(name),
-        margins=_margins(tooth),
-        recovered=(tooth.generating_angle,),
-        lengthwise="axial",
-    )
+    rack = tooth.rack
+    return body(tooth, motion, {rack.along: tooth.gear.edge_end, rack.axial: sp.Integer(0)}, _margins(tooth))
 
 
 def _unknowns(tooth):
@@ -221,11 +183,6 @@ def _margins(tooth):
         Margin("off_face", "face", gear.face_width.symbol / 2 - sp.Abs(z)),
         Margin("off_root", "root", tooth.rack.along - k.EDGE_START, Role.JUNCTION, joins="fillet"),
     )
-
-
-def _fillet_margins(tooth):
-    turn = tooth.fillet.parameters[0]
-    return Margin("", "junction", turn, joins="flank"), Margin("", "bottom", sp.pi / 2 - alpha - turn)
 
 
 # -- the unmodified pair: its common normal fixes centre distance, transmission error and the place of contact ---------

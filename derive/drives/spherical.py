@@ -12,14 +12,14 @@ import sympy as sp
 
 from derive.drives import outlines
 from derive.drives import spherical_keys as k
+from derive.drives.rack_generated import body, fillet_margins, rolled, solid_teeth, undercut
 from derive.drives.spherical_keys import PINION, WHEEL, Gear
 from derive.language import vectors as v
 from derive.language.chain import Rx, Ry, Rz, translation
 from derive.language.contact import contact
 from derive.language.definitions import Definitions
-from derive.language.drive import Body, Drive, Loading, Margin, Region, Role, Source, System, ToolUse, body_point
-from derive.language.envelope import envelope, explicit
-from derive.language.functions import Function, LeastTeeth, Result, solid
+from derive.language.drive import Drive, Loading, Margin, Region, Role, Source, System, ToolUse, body_point
+from derive.language.functions import LeastTeeth
 from derive.language.replace import replaced
 from derive.language.surface import Surface
 from derive.language.symbols import Guard, Unknown, rotation_angle
@@ -70,12 +70,7 @@ def _tooth(gear, form, definitions):
 
 
 def _rolled(cutter, gear, angle):
-    """The envelope of a cutter's surface on the gear that rolls on it, and the turn of the gear in generation."""
-    phi = rotation_angle(angle, f"turn of the {gear.name} in generation", "gen")
-    rolling = Rz(phi) @ translation(x=gear.pitch_radius, y=-gear.pitch_radius * phi)
-    surface, solved = explicit(envelope(cutter, rolling, phi))
-    proved = (f"spherical_gears/{key}" for key in ("meshing", "explicit", "tangent", "undercut"))
-    return surface.on(*proved), solved.symbol
+    return rolled(cutter, gear.name, gear.pitch_radius, angle, "spherical_gears")
 
 
 def spherical(pinion_form, wheel_form):
@@ -109,7 +104,7 @@ def spherical(pinion_form, wheel_form):
         wheel_angle=phi_2,
         pinion=pinion,
         wheel=wheel,
-        regions=tuple(Region(t.gear.name, "fillet", t.fillet, s, _fillet_margins(t), "axial") for t in teeth),
+        regions=tuple(Region(t.gear.name, "fillet", t.fillet, s, fillet_margins(t, alpha), "axial") for t in teeth),
         unknowns=(*_unknowns(pinion_tooth, wheel_tooth), *_unknowns(wheel_tooth, pinion_tooth), Unknown(error)),
         residual=contact(pinion.placed, wheel.placed),
         definitions=definitions,
@@ -147,52 +142,16 @@ def _undercut(tooth):
         to_centre = (tool.arc_radius - gear.edge_offset.symbol - gear.face_width.symbol / 2) / sp.cos(alpha)
         far = (far + to_centre - sp.Abs(far - to_centre)) / 2
     ends = {"first": -far, "start": 0, "middle": tool.pitch_point, "last": tool.edge_length}
-    return (
-        Function(
-            f"undercut_range_{gear.name}",
-            "positions on the edge of the cutter between which undercut is sought",
-            (),
-            tuple(Result(name, (sp.sympify(end),), "mm", gear.name) for name, end in ends.items()),
-        ),
-        Function(
-            f"undercut_place_{gear.name}",
-            "position on the edge of the cutter, 0 at the root of the gear",
-            tooth.surface.parameters,
-            (Result("edge_position", (tool.along,), "mm", gear.name),),
-        ),
-    )
+    return undercut(tooth, tool.along, "cutter", ", 0 at the root of the gear", ends)
 
 
 def _solid(tooth):
-    gear, tool = tooth.gear, tooth.tool
-    half_face = gear.face_width.symbol / 2
-    sizes = {
-        "module": (m, "mm"),
-        "teeth": (gear.teeth.symbol, ""),
-        "root_radius": (_root_radius(tooth), "mm"),
-        "face_first": (-half_face, "mm"),
-        "face_last": (half_face, "mm"),
-        "flank_root": (0, "mm"),
-        "tip_first": (0, "mm"),
-        "tip_last": (tool.edge_length, "mm"),
-        "fillet_junction": (0, "rad"),
-        "fillet_land": (sp.pi / 2 - alpha, "rad"),
-    }
-    return solid(gear.name, sizes)
+    return solid_teeth(tooth.gear, m, alpha, _root_radius(tooth), (0, tooth.tool.edge_length))
 
 
 def _body(tooth, motion):
-    name, tool = tooth.gear.name, tooth.tool
-    return Body(
-        name,
-        tooth.surface,
-        motion,
-        reference={tool.along: tool.pitch_point, tool.sweep: sp.Integer(0)},
-        point=body_point(name),
-        margins=_margins(tooth),
-        recovered=(tooth.generating_angle,),
-        lengthwise="axial",
-    )
+    tool = tooth.tool
+    return body(tooth, motion, {tool.along: tool.pitch_point, tool.sweep: sp.Integer(0)}, _margins(tooth))
 
 
 def _unknowns(tooth, mate):
@@ -233,11 +192,6 @@ def _margins(tooth):
         Margin("off_tool", "tool_end", tool.edge_length - tool.along),
         Margin("off_tool", "root", tool.along, Role.JUNCTION, joins="fillet"),
     )
-
-
-def _fillet_margins(tooth):
-    turn = tooth.fillet.parameters[0]
-    return Margin("", "junction", turn, joins="flank"), Margin("", "bottom", sp.pi / 2 - alpha - turn)
 
 
 def _guards(tooth):

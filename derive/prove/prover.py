@@ -5,7 +5,6 @@ Input: a Statement. Output: a Decision per scalar component. A remainder of zero
 vanishes; a point at which the sides differ is a refutation; anything else is undecided.
 """
 
-import hashlib
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -15,7 +14,7 @@ from derive.prove.normal_form import Relation, reduce
 from derive.prove.points import THRESHOLD, Point, is_rounded, sample_points, value_at
 from derive.prove.polynomial import BACKENDS, Terms, text_of
 from derive.prove.statement import Statement
-from derive.prove.tree import NotationError, Tree, canonical
+from derive.prove.tree import NotationError, Tree
 
 ATTEMPTS = 24
 
@@ -69,15 +68,6 @@ class Decision:
             if outcome in outcomes:
                 return outcome
         return Outcome.PROVED
-
-    @property
-    def normal_form_hash(self) -> str:
-        """sha256 of remainders and denominators: equal for every back end."""
-        body = [
-            [text_of(c.remainder), [[text_of(factor), times] for factor, times in c.denominators]]
-            for c in self.components
-        ]
-        return hashlib.sha256(canonical([list(self.names), body]).encode()).hexdigest()
 
 
 def decide(statement: Statement, backend: str = BACKENDS[0]) -> Decision:

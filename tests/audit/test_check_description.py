@@ -68,13 +68,21 @@ def test_a_drive_without_description_is_refused(tmp_path, capsys):
     ],
 )
 def test_a_changed_function_is_refused(function, pattern, other, words):
-    description, header = (path.read_text(encoding="utf-8") for path in paths(ZN))
-    head, signature, body = header.partition(f"{ZN}_{function}(")
-    head, signature, body = (head, signature, body) if "double *" in body[:40] else header.rpartition(signature)
-    changed, count = re.subn(pattern, other, body, count=1)
-    assert count == 1
     with pytest.raises(Rejected, match="description"):
-        only(Drive(json.loads(description), head + signature + changed), words)
+        only(changed(function, pattern, other), words)
+
+
+def changed(function, pattern, other, count=1):
+    """The drive with the first places of one of its functions changed."""
+
+    def change(header):
+        head, signature, body = header.partition(f"{ZN}_{function}(")
+        head, signature, body = (head, signature, body) if "double *" in body[:40] else header.rpartition(signature)
+        other_body, found = re.subn(pattern, other, body, count=count)
+        assert found == count
+        return head + signature + other_body
+
+    return drive_of(ZN, change)
 
 
 @pytest.mark.parametrize(
@@ -87,22 +95,14 @@ def test_a_changed_function_is_refused(function, pattern, other, words):
     ],
 )
 def test_a_key_that_is_missing_under_another_name_is_refused(pattern, other):
-    description, header = (path.read_text(encoding="utf-8") for path in paths(ZN))
-    head, signature, body = header.partition(f"{ZN}_missing(")
-    changed, count = re.subn(pattern, other, body, count=1)
-    assert count == 1
     with pytest.raises(Rejected, match="missing"):
-        only(Drive(json.loads(description), head + signature + changed), "keys that are missing")
+        only(changed("missing", pattern, other), "keys that are missing")
 
 
 def test_a_normal_that_points_inward_is_refused():
     """All three components turned round: the length, and the right angle to every tangent, stay."""
-    description, header = (path.read_text(encoding="utf-8") for path in paths(ZN))
-    head, signature, body = header.partition(f"{ZN}_flank_pinion(")
-    changed = re.sub(r"o\[([345])\] = (\S+);", r"o[\1] = -\2;", body, count=3)
-    assert changed != body
     with pytest.raises(Rejected, match="normal"):
-        only(Drive(json.loads(description), head + signature + changed), "normal of flank_pinion")
+        only(changed("flank_pinion", r"o\[([345])\] = (\S+);", r"o[\1] = -\2;", count=3), "normal of flank_pinion")
 
 
 def test_a_rule_that_rests_on_its_own_value_is_refused(tmp_path):

@@ -6,6 +6,7 @@ import pytest
 
 from derive.audit.documents import rack_and_pinion, recess_action
 from derive.audit.identities import (
+    bevel,
     conventions,
     cylindrical_gears,
     cylindrical_worm,
@@ -21,10 +22,10 @@ from tests.quick import quick
 #: What a change that makes a scalar of a vector, or divides by zero, ends in: no equation any more.
 MALFORMED = (ValueError, TypeError, ZeroDivisionError, IndexError)
 CHAPTERS = (
-    recess_action, conventions, helicoids, cylindrical_worm, face_worm, derivation, rack_and_pinion, spherical,
-    cylindrical_gears,
+    recess_action, conventions, helicoids, cylindrical_worm, face_worm, bevel, derivation, rack_and_pinion,
+    spherical, cylindrical_gears,
 )  # fmt: skip
-QUICK = CHAPTERS[:5]
+QUICK = CHAPTERS[:6]
 
 
 def derived_equations(chapters):
@@ -39,7 +40,7 @@ def derived_equations(chapters):
                         yield statement
 
 
-@pytest.mark.parametrize(("chapters", "least"), quick([(QUICK, 600), (CHAPTERS, 1400)], (QUICK, 600)))
+@pytest.mark.parametrize(("chapters", "least"), quick([(QUICK, 800), (CHAPTERS, 1600)], (QUICK, 800)))
 def test_every_mutation_is_refuted(capsys, chapters, least):
     outcomes, survivors = [], []
     for statement in derived_equations(chapters):

@@ -42,6 +42,7 @@ FACE, CYLINDRICAL = ("face_worm",), ("cylindrical_gears",)
 #: File -> drives that it takes part in; of what all use, one of each kind, the quickest first.
 DRIVES = {
     "drives/spherical.py": (CONCAVE, SPUR), "drives/spherical_keys.py": (CONCAVE,),
+    "drives/rack_generated.py": (CONCAVE, *CYLINDRICAL),
     "drives/cylindrical_worm.py": WORMS, "drives/cylindrical_worm_functions.py": WORMS,
     "drives/cylindrical_worm_keys.py": WORMS,
     "drives/face_worm.py": FACE, "drives/face_worm_keys.py": FACE, "drives/cylindrical_gears.py": CYLINDRICAL,

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from meshwright import DesignError, Drive
+from tests.independent.chords import chords
 from tests.independent.recess_action import Paper
 from tests.lanes import available, trace_designs
 
@@ -67,32 +68,6 @@ def _paper(tables):
     )
 
 
-def _jacobian(paper, unknowns, phi):
-    """Central differences in 50 digits: exact to more than double precision."""
-    step = mpmath.mpf(10) ** -15
-    columns = []
-    for k in range(6):
-        above, below = list(unknowns), list(unknowns)
-        above[k] += step
-        below[k] -= step
-        pairs = zip(paper.residual(above, phi), paper.residual(below, phi), strict=True)
-        columns.append([float((a - b) / (2 * step)) for a, b in pairs])
-    return np.array(columns).T
-
-
-def _polished(paper, unknowns, phi):
-    """The paper's solution to about 25 digits: chord iterations from a double precision start."""
-    unknowns = [mpmath.mpf(float(u)) for u in unknowns]
-    inverse = np.linalg.inv(_jacobian(paper, unknowns, phi))
-    for _ in range(3):
-        residual = paper.residual(unknowns, phi)
-        size = max(map(abs, residual)) or mpmath.mpf(1)
-        change = inverse @ np.array([float(r / size) for r in residual])
-        unknowns = [u - size * mpmath.mpf(float(c)) for u, c in zip(unknowns, change, strict=True)]
-    assert max(map(abs, paper.residual(unknowns, phi))) < 1e-20
-    return unknowns
-
-
 def _solved_cases(count):
     rng = np.random.default_rng(20040531)
     while count:
@@ -130,7 +105,7 @@ def differences(request):
                 u["t_worm"][0], -u["psi_worm"][0], result.wheel_angles[0],
             ]  # fmt: skip
             paper = _paper(tables)
-            exact = _polished(paper, start, mpmath.mpf(phi))
+            exact = chords(lambda x, paper=paper, phi=phi: paper.residual(x, mpmath.mpf(phi)), start)
             error = exact[5] - mpmath.mpf(tables["design"]["worm_threads"]) / tables["design"]["wheel_teeth"] * phi
             residual = [abs(float(r)) for r in paper.residual([mpmath.mpf(float(x)) for x in start], mpmath.mpf(phi))]
             found = [result.error[0], *_errors_in_lanes(drive, phi, result.solutions[0])]

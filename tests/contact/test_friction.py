@@ -82,7 +82,7 @@ def test_a_table_is_read_between_its_lines(tmp_path):
 
 @pytest.mark.parametrize(
     ("text", "rpm", "word"),
-    [("x", 10.0, "neither a number nor a readable file"), ("-0.1", None, "coefficient"), ("nan", None, "coefficient"),
+    [("x", 10.0, "neither a number nor a file"), ("-0.1", None, "coefficient"), ("nan", None, "coefficient"),
      ("0.1", -1.0, "--pinion-rpm"), ("TABLE", None, "give --pinion-rpm")],
 )  # fmt: skip
 def test_wrong_friction_is_refused(text, rpm, word):

@@ -9,8 +9,6 @@ those that were once refused or written beyond 1 µm.
 
 import random
 import struct
-import tempfile
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -20,6 +18,7 @@ from meshwright.design.design import packaged_names, read
 from meshwright.fe.closed_body import solid_body
 from meshwright.flank import exports
 from meshwright.flank.step import Spline, step
+from tests.flank.step_files import valid_shape
 from tests.quick import full
 
 MICROMETRE = 1e-3
@@ -92,25 +91,6 @@ def _beyond(drive, member, points):
     return max(float(b.max()) for b in beyond)
 
 
-def _read(content):
-    """Shape of a STEP file, as another program reads it."""
-    from OCP.STEPControl import STEPControl_Reader
-
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "body.step"
-        path.write_bytes(content)
-        reader = STEPControl_Reader()
-        reader.ReadFile(str(path))
-        reader.TransferRoots()
-    return reader.OneShape()
-
-
-def _valid(shape):
-    from OCP.BRepCheck import BRepCheck_Analyzer
-
-    return BRepCheck_Analyzer(shape).IsValid()
-
-
 def _volume(shape):
     from OCP.BRepGProp import BRepGProp
     from OCP.GProp import GProp_GProps
@@ -148,7 +128,7 @@ def test_a_step_file_is_within_a_micrometre_of_its_surface_and_valid(name, membe
         return
     made = step(drive, drive.region(member, region), (11, 21))
     assert made.deviation <= MICROMETRE
-    assert _valid(_read(made.content))
+    valid_shape(made.content)
     points = drive.surface(member, (11, 21), region)
     points = np.concatenate([points.points[np.isfinite(points.points).all(axis=1)], points.mesh.points])
     assert _beyond(drive, member, points) < 1e-6
@@ -167,8 +147,7 @@ def test_a_solid_is_closed_whole_and_inside_its_blank(name, member):
     patches, departure = body.splined(MICROMETRE)
     assert departure <= MICROMETRE
     content, volume = solid_step(patches, name)
-    shape = _read(content)
-    assert _valid(shape) and _volume(shape) == pytest.approx(volume, rel=1e-6)
+    assert _volume(valid_shape(content)) == pytest.approx(volume, rel=1e-6)
     between = np.linspace(0.0, 1.0, 23)
     for patch in patches:
         if patch.kind in ("flank", "fillet", "step", "tip", "end"):

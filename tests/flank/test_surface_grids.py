@@ -11,6 +11,7 @@ import pytest
 from meshwright import Drive
 from meshwright.cli import main
 from meshwright.flank.exports import stl, vtu
+from tests.flank.step_files import valid_shape
 from tests.quick import some
 
 
@@ -186,23 +187,11 @@ def test_a_flank_that_ends_in_a_cusp_is_trimmed_within_a_micrometre():
 
 
 def _area_of_faces(content):
-    import tempfile
-    from pathlib import Path
-
-    from OCP.BRepCheck import BRepCheck_Analyzer
     from OCP.BRepGProp import BRepGProp
     from OCP.GProp import GProp_GProps
-    from OCP.STEPControl import STEPControl_Reader
 
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "flank.step"
-        path.write_bytes(content)
-        reader = STEPControl_Reader()
-        reader.ReadFile(str(path))
-        reader.TransferRoots()
-    shape, properties = reader.OneShape(), GProp_GProps()
-    assert BRepCheck_Analyzer(shape).IsValid()
-    BRepGProp.SurfaceProperties_s(shape, properties, 1e-6)
+    properties = GProp_GProps()
+    BRepGProp.SurfaceProperties_s(valid_shape(content), properties, 1e-6)
     return properties.Mass()
 
 

@@ -147,16 +147,6 @@ class Pair:
         conditions = [f1, f2] if generated else [f1]
         return [*(r1 - r2), dot(n2, first), dot(n2, second), *conditions]
 
-    def jacobian(self, x, phi_1):
-        """∂(residual)/∂x by differences, exact to half the working precision."""
-        n, step = len(x), mpf(10) ** (-mp.dps // 2)
-        at, matrix = mp.matrix(self.residual(x, phi_1)), mp.matrix(n, n)
-        for j in range(n):
-            beside = list(x)
-            beside[j] += step
-            matrix[:, j] = (mp.matrix(self.residual(beside, phi_1)) - at) / step
-        return matrix
-
     def solve(self, x, phi_1):
         """The unknowns near start values x."""
         return chords(lambda x: self.residual(x, mpf(phi_1)), x)

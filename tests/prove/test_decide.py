@@ -116,8 +116,11 @@ def test_division_by_an_identical_zero_is_an_error():
 @pytest.mark.skipif(len(BACKENDS) < 2, reason="python-flint is not installed")
 @pytest.mark.parametrize("text", [*TRUE, "x*sin(a) = cos(b)/x", "d(sqrt(x**2 + y), x)*tan(a) = 1"])
 def test_both_back_ends_give_the_same_normal_form(text):
-    hashes = {decide(claim(text, VECTORS), backend).normal_form_hash for backend in BACKENDS}
-    assert len(hashes) == 1
+    first, *others = (
+        (found.names, [(c.remainder, c.denominators) for c in found.components])
+        for found in (decide(claim(text, VECTORS), backend) for backend in BACKENDS)
+    )
+    assert all(other == first for other in others)
 
 
 @pytest.mark.parametrize(

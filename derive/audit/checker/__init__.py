@@ -8,7 +8,7 @@ check_description.py   generated C against the descriptions of the drives
 check_bounded.py       edges, limits, certified tables, CasADi where it can be imported
 check_print.py         descriptions against what their sources print and the laws of enveloping
 
-refusal.py             what they all end in that do not accept
+refusal.py, command.py  what they all end in that do not accept; what the commands have in common
 
 of the record: numbers, enclosure, polynomials (arithmetic); trees, points, notation (expressions and what symbols are
 worth); lines, record (objects); certificates, verdicts, seal

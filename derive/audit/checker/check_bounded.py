@@ -25,8 +25,9 @@ from pathlib import Path
 from .any_root import kept_draws, with_any_root
 from .as_they_stand import CHOSEN, check_as_they_stand
 from .casadi_functions import Casadi, casadi, check_casadi, parts_of
+from .command import described, ended, folder_of
 from .edges import BoundedDrive, check_edge_slopes, check_edges, check_slopes, check_systems
-from .refusal import UNREADABLE, Rejected, require
+from .refusal import UNREADABLE, Rejected
 from .straight_line import read_companion
 from .tables import tables_of
 
@@ -75,26 +76,14 @@ def check_drive(description: Path, header: Path, folder: Path) -> int:
     return len(checks)
 
 
-def verify(folder: Path, drives: list[str]) -> tuple[int, int]:
-    """Drives and checks, of all drives if none is named; Rejected if one fails."""
-    root = folder.parent
-    described = root / "descriptions"
-    descriptions = [described / f"{name}.json" for name in drives] or sorted(described.glob("*.json"))
-    missing = [path.name for path in descriptions if not path.is_file()]
-    require(descriptions and not missing, f"{described}: no {', '.join(missing) or 'description'}")
-    return len(descriptions), sum(
-        check_drive(path, root / "c" / f"{path.stem}.h", root / "casadi") for path in descriptions
-    )
-
-
 def main(arguments: list[str]) -> int:
-    try:
-        drives, checks = verify(Path(arguments[0] if arguments else Path(__file__).parents[1]), arguments[1:])
-    except Rejected as reason:
-        print(f"REJECTED: {reason}", file=sys.stderr)
-        return 1
+    def said() -> str:
+        folder = folder_of(arguments)
+        paths, root = described(folder, arguments[1:]), folder.parent
+        checks = sum(check_drive(path, root / "c" / f"{path.stem}.h", root / "casadi") for path in paths)
+        words = "edges, limits, second derivatives, tables" + (", CasADi" if casadi else "")
+        return f"{checks} checks of {len(paths)} drives hold: {words}"
+
     if casadi is None:
         print("CasADi is not installed: its functions are not compared", file=sys.stderr)
-    words = "edges, limits, second derivatives, tables" + (", CasADi" if casadi else "")
-    print(f"{checks} checks of {drives} drives hold: {words}")
-    return 0
+    return ended(said)

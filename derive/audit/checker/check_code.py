@@ -28,7 +28,6 @@ A wrong program passes with a probability of about degree / 2^61.
 """
 
 import re
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -44,6 +43,7 @@ from .calculus import (
     check_jacobian,
     check_step,
 )
+from .command import ended, folder_of
 from .kernels import check_arc_kernel, check_kernels, check_near_kernel
 from .lanes import check_flank_tangent, check_lanes, check_tangent
 from .refusal import UNREADABLE, Rejected
@@ -91,21 +91,13 @@ def check_header(path: Path) -> int:
     return len(checks) + 1
 
 
-def verify(folder: Path) -> tuple[int, int]:
-    """Headers and checks; Rejected if one fails."""
-    drives = "_setup(const double *p, double *s)"
-    headers = [path for path in sorted((folder.parent / "c").glob("*.h")) if drives in path.read_text(encoding="utf-8")]
-    return len(headers), sum(map(check_header, headers))
-
-
 def main(arguments: list[str]) -> int:
-    try:
-        headers, checks = verify(Path(arguments[0] if arguments else Path(__file__).parents[1]))
-    except Rejected as reason:
-        print(f"REJECTED: {reason}", file=sys.stderr)
-        return 1
-    print(
-        f"{checks} checks of {headers} generated headers hold: J = dR/dx, step, paths, start, tangents, normals, "
-        "curvature, lanes, parameters, sine, assembly, agreement"
-    )
-    return 0
+    def said() -> str:
+        drives, folder = "_setup(const double *p, double *s)", folder_of(arguments).parent / "c"
+        headers = [path for path in sorted(folder.glob("*.h")) if drives in path.read_text(encoding="utf-8")]
+        return (
+            f"{sum(map(check_header, headers))} checks of {len(headers)} generated headers hold: J = dR/dx, step, "
+            "paths, start, tangents, normals, curvature, lanes, parameters, sine, assembly, agreement"
+        )
+
+    return ended(said)

@@ -25,10 +25,10 @@ about degree / 2^61.
 """
 
 import json
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from .command import described, ended, folder_of
 from .contact import (
     check_arms,
     check_contact,
@@ -61,7 +61,7 @@ from .design import (
 )
 from .draws import Draws, on_both_flanks
 from .drive import Drive
-from .refusal import UNREADABLE, Rejected, require
+from .refusal import UNREADABLE, Rejected
 from .straight_line import read_companion
 
 
@@ -142,23 +142,15 @@ def check_drive(description: Path, header: Path) -> int:
     return len(checks)
 
 
-def verify(folder: Path, drives: list[str]) -> tuple[int, int]:
-    """Drives and checks, of all drives if none is named; Rejected if one fails."""
-    described = folder.parent / "descriptions"
-    descriptions = [described / f"{name}.json" for name in drives] or sorted(described.glob("*.json"))
-    missing = [path.name for path in descriptions if not path.is_file()]
-    require(descriptions and not missing, f"{described}: no {', '.join(missing) or 'description'}")
-    return len(descriptions), sum(check_drive(path, folder.parent / "c" / f"{path.stem}.h") for path in descriptions)
-
-
 def main(arguments: list[str]) -> int:
-    try:
-        drives, checks = verify(Path(arguments[0] if arguments else Path(__file__).parents[1]), arguments[1:])
-    except Rejected as reason:
-        print(f"REJECTED: {reason}", file=sys.stderr)
-        return 1
-    print(
-        f"{checks} checks of {drives} drives hold: rules and their changes, design systems, guards, sizes, residuals, "
-        "start, points, normals, tangents, curvatures, margins, placements and functions are those of the description"
-    )
-    return 0
+    def said() -> str:
+        folder = folder_of(arguments)
+        paths = described(folder, arguments[1:])
+        checks = sum(check_drive(path, folder.parent / "c" / f"{path.stem}.h") for path in paths)
+        return (
+            f"{checks} checks of {len(paths)} drives hold: rules and their changes, design systems, guards, sizes, "
+            "residuals, start, points, normals, tangents, curvatures, margins, placements and functions are those of "
+            "the description"
+        )
+
+    return ended(said)

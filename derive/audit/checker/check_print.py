@@ -18,10 +18,10 @@ Laws, of every surface of every drive:
 """
 
 import json
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from .command import described, ended, folder_of
 from .described import Described
 from .draws import Draws, on_both_flanks
 from .laws import check_contact, check_enveloping, check_made, check_slope, slopes_of
@@ -61,21 +61,11 @@ def check_drive(path: Path, printed: list) -> int:
     return len(checks)
 
 
-def verify(folder: Path, drives: list[str]) -> tuple[int, int]:
-    """Drives and checks, of all drives if none is named; Rejected if one fails."""
-    printed = read_printed(Path(__file__).parent.with_name("printed.txt").read_text(encoding="utf-8"))
-    described = folder.parent / "descriptions"
-    paths = [described / f"{name}.json" for name in drives] or sorted(described.glob("*.json"))
-    missing = [path.name for path in paths if not path.is_file()]
-    require(paths and not missing, f"{described}: no {', '.join(missing) or 'description'}")
-    return len(paths), sum(check_drive(path, printed) for path in paths)
-
-
 def main(arguments: list[str]) -> int:
-    try:
-        drives, checks = verify(Path(arguments[0] if arguments else Path(__file__).parents[1]), arguments[1:])
-    except Rejected as reason:
-        print(f"REJECTED: {reason}", file=sys.stderr)
-        return 1
-    print(f"{checks} checks of {drives} descriptions hold: as printed, made, enveloping, contact, slopes")
-    return 0
+    def said() -> str:
+        printed = read_printed(Path(__file__).parent.with_name("printed.txt").read_text(encoding="utf-8"))
+        paths = described(folder_of(arguments), arguments[1:])
+        checks = sum(check_drive(path, printed) for path in paths)
+        return f"{checks} checks of {len(paths)} descriptions hold: as printed, made, enveloping, contact, slopes"
+
+    return ended(said)

@@ -31,10 +31,10 @@ that is printed at the end is the probability that a wrong certificate passes th
 """
 
 import math
-import sys
 from pathlib import Path
 
 from .certificates import POINTS
+from .command import ended, folder_of
 from .origins import check_origins
 from .record import check_step, check_use, read_record, root_of
 from .refusal import UNREADABLE, Rejected
@@ -85,18 +85,16 @@ def certainty(decided: list[dict]) -> int:
 
 
 def main(arguments: list[str]) -> int:
-    folder = Path(arguments[0] if arguments else Path(__file__).parents[1])
-    try:
-        report = verify(folder)
-    except Rejected as reason:
-        print(f"REJECTED: {reason}", file=sys.stderr)
-        return 1
-    counted = {kind: report[kind] for kind in ("certificate", "equation", "file", "source", "step", "verdict")}
-    print(", ".join(f"{count} {kind}{'' if count == 1 else 's'}" for kind, count in counted.items()), "hold")
-    print(
-        f"proofs expanded in exact integers: {report['expanded']}; checked at {POINTS} random points instead: "
-        f"{report['sampled']}" + (f", failure below 2^-{report['bits of certainty']}" if report["sampled"] else "")
-    )
-    print(f"definitions read from descriptions, read again: {report['read']}")
-    print("root", report["root"])
-    return 0
+    def said() -> str:
+        report = verify(folder_of(arguments))
+        counted = {kind: report[kind] for kind in ("certificate", "equation", "file", "source", "step", "verdict")}
+        bound = f", failure below 2^-{report['bits of certainty']}" if report["sampled"] else ""
+        return (
+            f"{', '.join(f'{count} {kind}' + 's' * (count != 1) for kind, count in counted.items())} hold\n"
+            f"proofs expanded in exact integers: {report['expanded']}; checked at {POINTS} random points instead: "
+            f"{report['sampled']}{bound}\n"
+            f"definitions read from descriptions, read again: {report['read']}\n"
+            f"root {report['root']}"
+        )
+
+    return ended(said)

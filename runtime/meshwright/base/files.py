@@ -1,4 +1,4 @@
-"""Results to files or to standard output; files are replaced atomically, devices and pipes are written to."""
+"""Files of bounded size are read; results go to files, replaced atomically, to devices, pipes or standard output."""
 
 import csv
 import errno
@@ -15,6 +15,32 @@ from meshwright.base.errors import UsageError
 
 #: Name of a file on its way to another's place.
 _PART = re.compile(r"\..+\.[0-9a-f]{16}")
+
+
+def read_bytes(path, largest, refused, smaller):
+    """The content of a file of ``largest`` bytes at the most; of what cannot be read or is longer, with the remedy
+    ``smaller``, the exception ``refused(reason, remedy)`` is raised.
+    """
+    try:
+        with open(path, "rb") as stream:
+            content = stream.read(largest + 1)
+    except OSError as error:
+        raise refused(f"cannot be read ({error.strerror})", "name a readable file") from error
+    if len(content) > largest:
+        raise refused(f"longer than {largest} bytes", smaller)
+    return content
+
+
+def read_table(path, largest, what):
+    """The lines of a CSV file in UTF-8, with or without a byte order mark; ``what``: which file is asked for."""
+
+    def refused(reason, remedy):
+        return UsageError(f"{path}: {reason}; {remedy}")
+
+    try:
+        return read_bytes(path, largest, refused, f"name {what}").decode("utf-8-sig").splitlines()
+    except UnicodeDecodeError as error:
+        raise refused("not a text file", "save it as CSV in UTF-8") from error
 
 
 def write_text(place, content):

@@ -9,11 +9,13 @@ drive is self-locking. Source of the principle: G. Niemann and H. Winter, Maschi
 
 import csv
 import math
+import os
 from dataclasses import dataclass
 
 import numpy as np
 
 from meshwright.base.errors import UsageError
+from meshwright.base.files import read_table
 from meshwright.base.plain import finite_or_none
 from meshwright.contact.velocities import velocities
 
@@ -58,7 +60,9 @@ class Friction:
         """The friction of a table."""
         if pinion_rpm is None:
             raise UsageError(f"--friction {path}: a table over the sliding speed needs the pinion's; give --pinion-rpm")
-        rows = list(csv.reader(_text(path).splitlines()))
+        if not os.path.exists(path):
+            raise UsageError(f"--friction {path}: neither a number nor a file; for example 0.05")
+        rows = list(csv.reader(read_table(path, LARGEST_FILE, "a table of friction")))
         rows = [(k, row) for k, row in enumerate(rows, 1) if row and not row[0].startswith("#")]
         if not rows or tuple(cell.strip() for cell in rows[0][1]) != COLUMNS:
             raise UsageError(f"{path}: its header is not {','.join(COLUMNS)}; write it above the table")
@@ -101,21 +105,6 @@ def _pair(path, number, row):
 def _check(place, coefficient):
     if not 0.0 <= coefficient <= MOST_FRICTION:
         raise UsageError(f"{place}: not a coefficient from 0 to {MOST_FRICTION:g}; for example 0.05")
-
-
-def _text(path):
-    try:
-        with open(path, "rb") as stream:
-            content = stream.read(LARGEST_FILE + 1)
-    except OSError as error:
-        why = f"neither a number nor a readable file ({error.strerror})"
-        raise UsageError(f"--friction {path}: {why}; for example 0.05") from None
-    if len(content) > LARGEST_FILE:
-        raise UsageError(f"{path}: larger than {LARGEST_FILE} bytes; name a table of friction")
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        raise UsageError(f"{path}: not a text file; save it as CSV in UTF-8") from None
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import operator
 import re
 import tomllib
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +16,7 @@ import numpy as np
 from meshwright.base import expression
 from meshwright.base.drives import folders
 from meshwright.base.errors import DesignError
+from meshwright.base.files import read_bytes
 from meshwright.base.library import ffi, library, model, model_in_lanes, pointer, text
 from meshwright.design import description as metadata
 from meshwright.design import schema
@@ -57,13 +58,7 @@ LARGEST_FILE = 2**20
 
 def _text(path):
     """The text of a file of bounded size, in UTF-8 with or without a byte order mark; line ends as they are."""
-    try:
-        with open(path, "rb") as stream:
-            content = stream.read(LARGEST_FILE + 1)
-    except OSError as error:
-        raise DesignError(str(path), None, f"cannot be read: {error.strerror}", "name a readable file") from error
-    if len(content) > LARGEST_FILE:
-        raise DesignError(str(path), None, f"longer than {LARGEST_FILE} bytes", "name a design file")
+    content = read_bytes(path, LARGEST_FILE, partial(DesignError, str(path), None), "name a design file")
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:

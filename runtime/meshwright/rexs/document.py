@@ -6,9 +6,11 @@ No document type and no entities are taken, and no more than :data:`LARGEST_FILE
 
 import re
 from dataclasses import dataclass, field
+from functools import partial
 from xml.parsers import expat
 
 from meshwright.base.errors import UsageError, plain
+from meshwright.base.files import read_bytes
 
 LARGEST_FILE = 2**26
 
@@ -83,13 +85,7 @@ class Document:
 
 def read(path):
     """The :class:`Document` of a file; raises :class:`RexsError`."""
-    try:
-        with open(path, "rb") as stream:
-            source = stream.read(LARGEST_FILE + 1)
-    except OSError as error:
-        raise RexsError(path, f"cannot be read: {error.strerror}", "name a readable file") from error
-    if len(source) > LARGEST_FILE:
-        raise RexsError(path, f"longer than {LARGEST_FILE} bytes", "take results out of it, such as point lists")
+    source = read_bytes(path, LARGEST_FILE, partial(RexsError, path), "take results out of it, such as point lists")
     return parsed(source, path)
 
 

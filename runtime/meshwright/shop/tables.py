@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.errors import UsageError
+from meshwright.base.files import read_table
 
 #: Columns of every file; more may follow.
 COLUMNS = ("tooth", "flank", "i", "j", "x_mm", "y_mm", "z_mm", "nx", "ny", "nz", "deviation_um")
@@ -58,7 +59,7 @@ def csv_text(points, remarks, ball_radius=None):
 def read_csv(path):
     """:class:`Points` and remarks of a CSV file; :class:`~meshwright.base.errors.UsageError` names line and column."""
     remarks, lines = {}, []
-    for number, line in enumerate(_text(path).splitlines(), 1):
+    for number, line in enumerate(read_table(path, LARGEST_FILE, "a file of measured points"), 1):
         if line.startswith("#"):
             key, equals, value = line[1:].partition("=")
             if equals:
@@ -84,20 +85,6 @@ def read_measured(path):
     if not np.isfinite(points.deviations).any():
         raise UsageError(f"{path}: deviation_um is empty in every line; fill in what was measured")
     return points
-
-
-def _text(path):
-    try:
-        with open(path, "rb") as stream:
-            content = stream.read(LARGEST_FILE + 1)
-    except OSError as error:
-        raise UsageError(f"{path}: cannot be read ({error.strerror}); name a readable file") from error
-    if len(content) > LARGEST_FILE:
-        raise UsageError(f"{path}: larger than {LARGEST_FILE} bytes; name a file of measured points")
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise UsageError(f"{path}: not a text file; save it as CSV in UTF-8") from error
 
 
 def _row(path, number, header, line):
