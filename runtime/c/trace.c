@@ -7,7 +7,8 @@
 #include "solver/chord.h"
 
 /* Points of a trace go from one to the next in single steps. That none came out on another branch is checked against the
- * walk, every so many points for each station of it; where one did, the points since the last check are walked to. */
+ * walk, every so many points for each station of it; where one did, the points since the last check are solved from the
+ * reference. */
 enum { CHECK_EVERY = 256 };
 
 /* Solutions nearer than this, in natural sizes, are one; near line contact they scatter along the line. */
@@ -35,7 +36,7 @@ typedef struct trace {
     mwi_chord chord;
     double step;                 /* size of the last */
     double beside[MW_MAX_UNKNOWNS];
-    size_t checked, walked;      /* points before these numbers are on the branch; have to be walked to */
+    size_t checked, walked;      /* points before these numbers are on the branch; have to be solved from the reference */
 } trace;
 
 /* Whether point k is of the branch, and bodies can make it. */
@@ -47,13 +48,13 @@ static int holds(trace *t, size_t k)
            mwi_near(t->m, t->pair.s, x, t->x + k * (size_t)t->m->nx, SAME);
 }
 
-/* Solve point k by walking to it, or by search. */
-static void by_walk(trace *t, size_t k)
+/* Solve point k from the reference, or by search. */
+static void from_reference(trace *t, size_t k)
 {
     double *x = t->x + k * (size_t)t->m->nx;
     t->history = mwi_no_history();
     t->checked = k + 1;
-    if (mwi_by_walk(&t->pair, t->phi[k], x, t->info + k)) mwi_remember(&t->history, t->phi[k], x);
+    if (mwi_solved(&t->pair, t->phi[k], x, t->info + k)) mwi_remember(&t->history, t->phi[k], x);
 }
 
 /* Solve as many points from number k on as the inverse Jacobian of one before serves; returns the number of the next. */
@@ -130,7 +131,7 @@ static size_t on_branch(trace *t, size_t k)
         return next;
     }
     if (k > t->checked && !holds(t, k - 1)) return back(t, k);
-    by_walk(t, k);
+    from_reference(t, k);
     return k + 1;
 }
 

@@ -1,4 +1,4 @@
-"""A drive that turns on: which pair is in mesh, at which angle of its own, and the same contact whatever was asked before."""
+"""A drive that turns on: which pair is in mesh, at which angle of its own; one contact whatever was asked before."""
 
 import mpmath
 import numpy as np
@@ -80,7 +80,8 @@ def _followed(drive, angles):
 def _solved(drive, angle):
     m, info = drive.model, ffi.new("mw_info *")
     s, work, x = np.empty(m.ns), np.empty(m.np), np.empty(m.nx)
-    return library().mw_solve(m, pointer(drive.design.parameters), angle, pointer(s), pointer(work), pointer(x), info), x
+    p = pointer(drive.design.parameters)
+    return library().mw_solve(m, p, angle, pointer(s), pointer(work), pointer(x), info), x
 
 
 @pytest.mark.parametrize("name", quick(VARIED, "zk-zn-45", "helical-crowned", "spherical-table-2-3"))
@@ -104,7 +105,7 @@ def test_a_contact_has_the_same_bits_whatever_was_asked_before(name):
 
 @pytest.mark.parametrize("name", quick(VARIED, "recess-action-full", "helical-crowned"))
 def test_pairs_repeat(name):
-    """What a pair does at an angle the next does a pitch later, after many turns too; ``tca`` is asked for the pair itself."""
+    """What a pair does at an angle the next does a pitch later, after many turns too."""
     drive = Drive.load(name)
     sample = np.linspace(-0.45, 0.45, 7) * drive.pitch() + drive.about_the_middle([0.0])
     itself = drive.tca(sample)

@@ -12,7 +12,7 @@ import pytest
 
 from meshwright import Drive
 from meshwright.base.compile import PARTS
-from meshwright.base.library import SHIPPED
+from meshwright.base.library import ABI, SHIPPED
 from meshwright.contact.results import ARCSEC
 from tests.embedding import compile as c
 
@@ -182,7 +182,7 @@ def test_a_library_of_another_abi_is_refused_with_the_remedy(tmp_path):
     """By the package, exit status 2, and by a program that loads the library itself."""
     shutil.copytree(SHIPPED / "include", tmp_path / "include")
     source, library = tmp_path / "old.c", tmp_path / "libmeshwright.so"
-    source.write_text("int mw_abi(void);\nint mw_abi(void) { return 7; }\n")
+    source.write_text("int mw_abi(void);\nint mw_abi(void) { return " + str(ABI + 1) + "; }\n")
     c.run(*sorted(c.compilers().items())[-1][1][0], "-shared", "-fPIC", source, "-o", library)
     code = (
         "import pathlib, sys; from meshwright.base import library; from meshwright.cli import main\n"
@@ -191,7 +191,7 @@ def test_a_library_of_another_abi_is_refused_with_the_remedy(tmp_path):
     arguments = ["tca", "recess-action-full", "--phi-deg", "0"]
     done = subprocess.run([sys.executable, "-c", code, tmp_path, *arguments], capture_output=True, text=True)
     assert done.returncode == 2
-    assert f"{library} has ABI 7, this package needs ABI 6: run `make build` again" in done.stderr
+    assert f"{library} has ABI {ABI + 1}, this package needs ABI {ABI}: run `make build` again" in done.stderr
     done = subprocess.run([sys.executable, EXAMPLES / "library.py", library], capture_output=True, text=True)
     assert done.returncode == 1
-    assert "has ABI 7, this program needs ABI 6" in done.stderr
+    assert f"has ABI {ABI + 1}, this program needs ABI {ABI}" in done.stderr

@@ -13,9 +13,10 @@ from meshwright.contact.analysis import statuses
 class Turning:
     """Pairs in mesh at pinion angles (N,), as the user counts them; angles in rad.
 
-    ``pairs``: number of the pair whose reference angle is the nearest; 0 is the pair that ``tca`` solves. ``own_angles``:
-    the angle less so many pitches, at which ``tca`` has the same contact: pair k runs as pair 0 does, k pitches later.
-    ``errors``: its transmission error, NaN without contact. ``statuses``: how each solve ended, in the words of ``tca``.
+    ``pairs``: number of the pair whose reference angle is the nearest; 0 is the pair that ``tca`` solves.
+    ``own_angles``: the angle less so many pitches, at which ``tca`` has the same contact: pair k runs as pair 0 does, k
+    pitches later. ``errors``: its transmission error, NaN without contact. ``statuses``: how each solve ended, in the
+    words of ``tca``.
     """
 
     angles: np.ndarray

@@ -50,7 +50,7 @@ static const mw_function *placement(void)
 /* One row: status, iterations, line, flags, point, normal, curvatures, major direction, distance, misfit, lever arms,
  * ratio, 1 free; x, o, placement of both members. Not a number where there is no contact. The steps are those of
  * X(solve), which finds the pair's reference for each angle anew; here one is found for all. */
-static int solved(mwi_pair *pair, double phi, double *row)
+static int row_of(mwi_pair *pair, double phi, double *row)
 {
     double *const x = row + HEAD, *const o = x + X(NX), *const place = o + X(NO);
     const mw_function *const bodies = placement();
@@ -58,9 +58,7 @@ static int solved(mwi_pair *pair, double phi, double *row)
     mw_contact c;
     for (int i = 0; i < ROW; i++) row[i] = NAN;
     row[0] = info.status;
-    if (!mwi_angle_in_range(phi)) return 0;
-    if (pair->reference.count > 0) mwi_by_walk(pair, phi, x, &info);
-    else mwi_alone(pair, phi, x, &info);
+    mwi_solved(pair, phi, x, &info);
     pair->m->set_phi(pair->s, phi);
     int status = info.status;
     row[1] = info.iterations;
@@ -101,8 +99,8 @@ EXPORT int live_cycle(int n)
     pair.m = &X(model), pair.p = parameters, pair.s = s, pair.work = work;
     mwi_find_reference(&pair);
     while (first < n && angles[first] < mwi_reference_angle(&pair)) first++;
-    for (int k = first; k < n; k++) count += solved(&pair, angles[k], rows + (size_t)k * ROW);
-    for (int k = first - 1; k >= 0; k--) count += solved(&pair, angles[k], rows + (size_t)k * ROW);
+    for (int k = first; k < n; k++) count += row_of(&pair, angles[k], rows + (size_t)k * ROW);
+    for (int k = first - 1; k >= 0; k--) count += row_of(&pair, angles[k], rows + (size_t)k * ROW);
     return count;
 }
 
