@@ -159,8 +159,6 @@ QUANTITIES = {
     "peak_pressure": "largest contact pressure of a pair; at an edge of a flank as sharp as the cells of the method",
     "peak_at_edge": "the largest pressure of a pair is at an edge of a flank, where it rises without limit as cells "
     "get finer, if the mate goes on beyond the edge; force and share hold",
-    "not_resolved": "of loaded contact: pressure is left at a free border of the cells, finer ones go on changing "
-    "the result, or no line carries the force with so low a peak; the message says which, and there are no figures",
     "rotation_not_small": "of loaded contact: the torque turns the member too far for linear elasticity",
     "misalignment": "errors of the assembly, keys of [misalignment]; the contact is solved with them as they are",
     "sensitivity": "how much a result changes for a unit of a key, by exact derivatives",
