@@ -224,6 +224,16 @@ def test_a_hypoid_pair_under_load(capsys):
     assert all(less < more < 4.0 * less for less, more in zip(*lags, strict=True))
 
 
-def test_a_bevel_pair_that_touches_along_lines_is_refused(capsys):
-    assert main(["loaded", "bevel-crown-pair", "--torque-nm", "20"]) == 2
-    assert "along a line" in capsys.readouterr().err
+def test_a_bevel_pair_carries_along_lines(capsys):
+    """All pairs of a crown gear's mates touch along lines at once, and share the torque by them."""
+    assert main(["loaded", "bevel-crown-pair", "--torque-nm", "20", "--phi-deg=0", "--json", "-"]) == 0
+    (point,) = json.loads(capsys.readouterr().out)["points"]
+    assert [(pair["kind"], pair["gap_um"] < 1e-6) for pair in point["pairs"]] == [("line", True)] * 3
+    assert all(pair["force_n"] > 0.0 for pair in point["pairs"])
+    assert sum(pair["share"] for pair in point["pairs"]) == pytest.approx(1.0)
+
+
+def test_finite_elements_refuse_lines_with_the_remedy(capsys, tmp_path):
+    words = ["fe", "bevel-crown-pair", "--torque-nm", "20", "--phi-deg=0", "--folder", str(tmp_path / "fe")]
+    assert main(words) == 2
+    assert "crown a flank" in capsys.readouterr().err

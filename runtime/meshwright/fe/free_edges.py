@@ -13,7 +13,7 @@ it moves alike. What the patches know of the same images is taken off the compli
 The images of loads on one side of an edge store a positive energy: 1/r is reflection positive (K. Osterwalder and R.
 Schrader, Axioms for Euclidean Green's functions, 1973), and weights on both sides are a congruence. Distances from an
 edge are therefore those of the flank's own coordinates: no cell lies beyond the edge that has its image. Displacements
-are those of the middles of cells, which leaves a remainder of either sign: what of it is negative is left out.
+are those of the middles of cells, which leaves a small remainder of either sign.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ from itertools import combinations
 
 import numpy as np
 
-from meshwright.fe.compliance import TOOTH_PATCHES, ToothCompliance, without_negative
+from meshwright.fe.compliance import TOOTH_PATCHES, ToothCompliance
 from meshwright.fe.gap import Bools, ContactGrid
-from meshwright.fe.halfspace import far_or_near, image_factor
-from meshwright.fe.hexahedra import Floats, Ints
+from meshwright.fe.halfspace import far_or_near, image_factor, symmetric
+from meshwright.fe.hexahedra import Floats
 from meshwright.fe.material import Material
 
 # Cells that show where an edge runs, at least.
@@ -41,8 +41,8 @@ _PER_PATCH = 5
 class _Beside:
     """Cells beside a free edge: ``axis`` 0 for the tip, 1 for a face, at the ``end`` (0 or 1) of arc length or width.
 
-    away, along (N,): mm from the edge and along it; weight (N,): of their images; half: half lengths in mm of a cell
-    across the edge and along it.
+    away, along (N,): mm from the edge and along it; weight (N,): of their images; half (2, N): half lengths in mm of
+    the cells across the edge and along it.
     """
 
     axis: int
@@ -50,25 +50,22 @@ class _Beside:
     away: Floats
     along: Floats
     weight: Floats
-    half: tuple[float, float]
+    half: Floats
 
 
 def free_edge_displacements(
     grid: ContactGrid, name: str, material: Material, tooth: ToothCompliance | None
 ) -> tuple[Floats, Floats | None] | None:
-    """Displacements (N, N) in mm of the cells of a grid by unit pressures that free edges of a member add, and what the
-    patches of its tooth know of that: (P Q, P Q) by unit forces, None without a tooth.
+    """Work (N, N) of unit pressures on the displacements that free edges of a member add by unit pressures on cells of
+    a grid, N mm, and what the patches of its tooth know of these: (P Q, P Q) by unit forces, None without a tooth.
 
     None where no edge is within a patch of the cells.
     """
-    (cells,) = np.nonzero(grid.inside)
-    edges = list(_edges(grid, name, cells, tooth.shape if tooth else TOOTH_PATCHES))
+    edges = list(_edges(grid, name, tooth.shape if tooth else TOOTH_PATCHES))
     if not edges:
         return None
-    whole, sets = np.zeros((len(grid.gap),) * 2), list(_sets(edges))
-    images = np.sum([_images(of, material) for of in sets], axis=0)
-    near = np.flatnonzero(images.any(axis=0))
-    whole[np.ix_(cells[near], cells[near])] = without_negative(images[np.ix_(near, near)])
+    sets = list(_sets(edges))
+    whole = symmetric(np.sum([_images(of, material) for of in sets], axis=0), grid.area)
     if tooth is None:
         return whole, None
     return whole, np.sum([_known(tooth, material, tuple((e.axis, e.end) for e in of)) for of in sets], axis=0)
@@ -90,31 +87,30 @@ def _images(of: tuple[_Beside, ...], material: Material) -> Floats:
     beside = np.abs(first.along[near, None] - first.along[None, near])
     for other in others:
         beside = other.away[near, None] + other.away[None, near]
-    moved = far_or_near(
-        first.away[near, None] + first.away[None, near], beside, *first.half, material.plane_strain_modulus
-    )
+    away = first.away[near, None] + first.away[None, near]
+    across, along = first.half[:, near]
+    moved = far_or_near(away, beside, across, along, material.plane_strain_modulus)
     found = np.zeros((len(weight),) * 2)
     found[np.ix_(near, near)] = weight[near, None] * moved * weight[None, near]
     return image_factor(material.poisson_ratio) ** len(of) * found
 
 
-def _edges(grid: ContactGrid, name: str, cells: Ints, shape: tuple[int, int]) -> Iterator[_Beside]:
+def _edges(grid: ContactGrid, name: str, shape: tuple[int, int]) -> Iterator[_Beside]:
     """The cells of a grid beside the free edges of a member, of each edge within a patch of them."""
-    known = [(0, 1.0)] + ([(1, 0.0), (1, 1.0)] if f"face of the {name}" in grid.beyond else [])
-    place, centres = grid.place[name][cells], grid.centres[cells]
-    for axis, end in known:
+    place, centres = grid.place[name], grid.centres
+    for axis, end in grid.free_edges[name]:
         patches = np.abs(end - place[:, axis]) * shape[axis]
-        if len(cells) < _FEWEST_CELLS or not patches.min() < 1.0:
+        if len(centres) < _FEWEST_CELLS or not patches.min() < 1.0:
             continue
         slope = _slope(centres, place[:, axis], patches)
         steepness = float(np.hypot(*slope))
         if not steepness > 0.0:
             continue
         across = slope / steepness
-        size = float(np.hypot(across[0] * grid.half_major, across[1] * grid.half_minor))
+        size = np.hypot(across[0] * grid.half[:, 0], across[1] * grid.half[:, 1])
         away = patches / (shape[axis] * steepness)
         along = centres @ np.array([-across[1], across[0]])
-        yield _Beside(axis, end, away, along, _weight(patches), (size, grid.half_major * grid.half_minor / size))
+        yield _Beside(axis, end, away, along, _weight(patches), np.stack([size, grid.half.prod(axis=1) / size]))
 
 
 def _slope(centres: Floats, share: Floats, patches: Floats) -> Floats:
@@ -146,7 +142,7 @@ def _known(tooth: ToothCompliance, material: Material, edges: tuple[tuple[int, f
     cells = tuple(
         _Beside(
             axis, end, lengths[axis] * steps[axis], lengths[1 - axis] * steps[1 - axis], _weight(steps[axis]),
-            (half[axis], half[1 - axis]),
+            np.array([[half[axis]], [half[1 - axis]]]).repeat(len(steps[axis]), axis=1),
         )
         for axis, end in ends.items()
     )  # fmt: skip

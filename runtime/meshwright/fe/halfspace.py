@@ -8,13 +8,16 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshwright.fe.gap import ContactGrid
 from meshwright.fe.hexahedra import Floats
 
 # A force spread over a rectangle acts as one at its centre beyond so many of its longer half sides.
-_FAR = 8.0
+_FAR = 6.0
 
 
-def rectangle_displacement(x: Floats, y: Floats, half_x: float, half_y: float, modulus: float) -> Floats:
+def rectangle_displacement(
+    x: Floats, y: Floats, half_x: Floats | float, half_y: Floats | float, modulus: float
+) -> Floats:
     """Displacement in mm at (x, y) mm from the centre of a rectangle under a pressure of 1 MPa.
 
     half_x, half_y: half lengths of its sides; modulus: plane-strain modulus E/(1 - nu^2), or the contact modulus
@@ -49,21 +52,41 @@ def image_factor(poisson_ratio: float) -> float:
     return 1.29 - (0.08 - 0.5 * poisson_ratio) / (1.0 - poisson_ratio)
 
 
-def far_or_near(x: Floats, y: Floats, half_x: float, half_y: float, modulus: float) -> Floats:
-    """As :func:`rectangle_displacement`, far away that of the same force at a point, there within 0.5 % of it."""
-    distance = np.hypot(x, y)
-    near = distance < _FAR * max(half_x, half_y)
-    found = 4.0 * half_x * half_y / (np.pi * modulus * np.where(near, 1.0, distance))
-    found[near] = rectangle_displacement(x[near], y[near], half_x, half_y, modulus)
+def far_or_near(x: Floats, y: Floats, half_x: Floats, half_y: Floats, modulus: float) -> Floats:
+    """As :func:`rectangle_displacement`, of rectangles of half sides that broadcast with x and y.
+
+    Far away the rectangle's force and its second moments act at its centre, there within 2e-4 of it.
+    """
+    x, y, half_x, half_y = np.broadcast_arrays(x, y, half_x, half_y)
+    square = x**2 + y**2
+    near = square < (_FAR * np.maximum(half_x, half_y)) ** 2
+    square = np.where(near, 1.0, square)
+    moments = (half_x**2 * (2.0 * x**2 - y**2) + half_y**2 * (2.0 * y**2 - x**2)) / (6.0 * square**2)
+    found = 4.0 * half_x * half_y * (1.0 + moments) / (np.pi * modulus * np.sqrt(square))
+    found[near] = rectangle_displacement(x[near], y[near], half_x[near], half_y[near], modulus)
     return found
 
 
-def equal_cells(count: int, half_x: float, half_y: float, modulus: float) -> Floats:
-    """(count, count) displacement at the centre of a rectangular cell so many cells away along x and along y, by a unit
-    pressure on an equal one.
+def between_cells(grid: ContactGrid, modulus: float) -> Floats:
+    """Displacements (N, N) in mm at the centres of cells by a unit pressure on each, laid flat where that is pressed.
+
+    Cells of a bent strip are in planes of their own; where these are far apart it is their distance that counts.
     """
-    x, y = np.meshgrid(2.0 * half_x * np.arange(count), 2.0 * half_y * np.arange(count), indexing="ij")
-    return rectangle_displacement(x, y, half_x, half_y, modulus)
+    apart = grid.points[:, None] - grid.points[None]
+    x, y = (np.einsum("abi,bi->ab", apart, grid.frame[:, axis]) for axis in (0, 1))
+    flat, distance = np.hypot(x, y), np.linalg.norm(apart, axis=2)
+    stretch = np.divide(distance, flat, out=np.ones_like(flat), where=flat > 0.0)
+    return far_or_near(x * stretch, y * stretch, grid.half[:, 0], grid.half[:, 1], modulus)
+
+
+def symmetric(displacements: Floats, areas: Floats) -> Floats:
+    """Work (N, N) of unit pressures on the displacements (N, N) of cells with areas (N,) by unit pressures on others.
+
+    Of two loads each does the same work on the other's displacement (E. Betti, 1872), up to what the centres of cells
+    of unequal size miss of their means.
+    """
+    work = areas[:, None] * displacements
+    return 0.5 * (work + work.T)
 
 
 def mean_displacement(offset_x: Floats, offset_y: Floats, half_x: float, half_y: float, modulus: float) -> Floats:
