@@ -28,6 +28,15 @@ CROWNED = {0.1: 1364, 0.5: 1375, 1: 1388, 2: 1414, 5: 1491, 10: 1610, 20: 1805}
 
 _ROOM = 0.01
 
+#: A drive of each family, and what puts it out of line.
+_OUT_OF_LINE = (
+    ("helical-crowned", "horizontal_deg"),
+    ("spherical-table-4-4-concave", "horizontal_deg"),
+    ("recess-action-full", "horizontal_deg"),
+    ("bevel-formate", "shaft_angle_deg"),
+    ("face-worm-conical-convex", "shaft_angle_deg"),
+)
+
 
 def _crowned(micrometres):
     return FZG_C14.with_(design={"pinion_lead_crowning_um": micrometres})
@@ -78,8 +87,8 @@ def test_crowned_from_a_line_on(micrometres, monkeypatch):
     """Without bodies of teeth, images of both ends go all along."""
     whole = free_edges._edges
 
-    def ends(grid, name, shape):
-        return [edge for edge in whole(grid, name, (1, 1)) if edge.axis == 1]
+    def ends(grid, name):
+        return [edge for edge in whole(grid, name) if edge.axis == 1]
 
     monkeypatch.setattr(free_edges, "_edges", ends)
     monkeypatch.setattr(free_edges, "_weight", np.ones_like)
@@ -135,20 +144,22 @@ def test_the_command_has_lines(tables, capsys, monkeypatch, tmp_path):
     assert all(pair["hertz_semi_major_mm"] is None for pair in point["pairs"])
 
 
-@pytest.mark.parametrize("seed", quick(range(40), 0, 1))
+def _neighbour(random):
+    """A drive of any family somewhat out of line, or a cylindrical pair with crowning from none to much."""
+    if random.random() < 0.5:
+        name, key = random.choice(_OUT_OF_LINE)
+        return Drive.load(str(name)).with_(misalignment={str(key): float(random.uniform(-0.02, 0.02))})
+    drive = [FZG_C14, H501][random.integers(2)]
+    return drive.with_(design={"pinion_lead_crowning_um": float(10.0 ** random.uniform(-3.0, 1.3))})
+
+
+@pytest.mark.parametrize("seed", quick(range(24), 0, 1))
 def test_no_converged_result_breaks_a_gate(seed):
     """Random loads on random neighbours of drives of all families: the moment is the torque, no pressure is left at a
     free border of the cells, and no peak is below the least with which lines carry the force.
     """
     random = np.random.default_rng(seed)
-    if random.random() < 0.5:
-        packaged = "helical-crowned", "spherical-table-4-4-concave", "recess-action-full", "bevel-formate"
-        drive = Drive.load(str(random.choice(packaged)))
-        drive = drive.with_(misalignment={"horizontal_deg": float(random.uniform(-0.02, 0.02))})
-    else:
-        crowning = float(10.0 ** random.uniform(-3.0, 1.3))
-        drive = [FZG_C14, H501][random.integers(2)].with_(design={"pinion_lead_crowning_um": crowning})
-    gear = gear_pair(drive)
+    gear = gear_pair(_neighbour(random))
     angle, torque = float(random.uniform(-0.5, 0.5)) * gear.pinion.pitch, float(10.0 ** random.uniform(0.0, 2.3))
     if not first_touches(gear, angle, 3):
         return
@@ -164,8 +175,8 @@ def test_no_converged_result_breaks_a_gate(seed):
         assert not pair.pressures[pair.grid.free[1]].any()
         profile = strips[pair.contact.pairs_later].profile
         on_both = np.isfinite(profile.gap)
-        assert (profile.curvature[on_both] > 0.0).all()
-        integral = float(np.sum(profile.length[on_both] / profile.curvature[on_both]))
-        assert pair.peak_pressure >= 0.98 * math.sqrt(pair.force * modulus / (math.pi * integral))
+        if (profile.curvature[on_both] > 0.0).all():  # a hollow gap has no line
+            integral = float(np.sum(profile.length[on_both] / profile.curvature[on_both]))
+            assert pair.peak_pressure >= 0.98 * math.sqrt(pair.force * modulus / (math.pi * integral))
         assert pair.peak_pressure >= pair.force / pair.grid.area.sum()
     assert moment == pytest.approx(1000.0 * torque, rel=1e-3)

@@ -6,9 +6,10 @@ image. Teeth end at their tips under more than a right angle, which makes them s
 Source: R. Guilbault, A fast correction for elastic quarter-space applied to 3D modeling of edge contact problems, ASME
 Journal of Tribology 133 (2011) 031402.
 
-Finite elements of the whole tooth know its edges, but not closer than to a patch. Images are therefore taken of what is
-within a patch of the edge, by weights that fall from 1 at the edge to 0 a patch away, of the load and of the place that
-it moves alike. What the patches know of the same images is taken off the compliance of the tooth.
+Finite elements of the whole tooth know its edges, but not closer than to a patch. Images are therefore taken by weights
+that fall from 1 at the edge to 0 in the middle of the flank, of the load and of the place that it moves alike, and what
+the patches know of the same images is taken off the compliance of the tooth. Weights that fell within a patch or two
+would leave a ripple of that length along a line of contact.
 
 The images of loads on one side of an edge store a positive energy: 1/r is reflection positive (K. Osterwalder and R.
 Schrader, Axioms for Euclidean Green's functions, 1973), and weights on both sides are a congruence. Distances from an
@@ -18,6 +19,7 @@ are those of the middles of cells, which leaves a small remainder of either sign
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -25,16 +27,18 @@ from itertools import combinations
 
 import numpy as np
 
-from meshwright.fe.compliance import TOOTH_PATCHES, ToothCompliance
-from meshwright.fe.gap import Bools, ContactGrid
+from meshwright.fe.compliance import ToothCompliance
+from meshwright.fe.gap import ContactGrid
 from meshwright.fe.halfspace import far_or_near, image_factor, symmetric
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.material import Material
 
-# Cells that show where an edge runs, at least.
-_FEWEST_CELLS = 3
+# Cells that show where an edge runs: one in so many, but so many at least.
+_NEAREST, _FEWEST_CELLS = 3, 3
 # Cells along either side of a patch that its mean takes.
 _PER_PATCH = 5
+# From so much of the flank away on an edge has no images.
+_WITHIN = 0.5
 
 
 @dataclass(frozen=True)
@@ -59,9 +63,9 @@ def free_edge_displacements(
     """Work (N, N) of unit pressures on the displacements that free edges of a member add by unit pressures on cells of
     a grid, N mm, and what the patches of its tooth know of these: (P Q, P Q) by unit forces, None without a tooth.
 
-    None where no edge is within a patch of the cells.
+    None where no edge is within half of the flank of the cells.
     """
-    edges = list(_edges(grid, name, tooth.shape if tooth else TOOTH_PATCHES))
+    edges = list(_edges(grid, name))
     if not edges:
         return None
     sets = list(_sets(edges))
@@ -95,35 +99,35 @@ def _images(of: tuple[_Beside, ...], material: Material) -> Floats:
     return image_factor(material.poisson_ratio) ** len(of) * found
 
 
-def _edges(grid: ContactGrid, name: str, shape: tuple[int, int]) -> Iterator[_Beside]:
-    """The cells of a grid beside the free edges of a member, of each edge within a patch of them."""
+def _edges(grid: ContactGrid, name: str) -> Iterator[_Beside]:
+    """The cells of a grid beside the free edges of a member, of each edge that has images of them."""
     place, centres = grid.place[name], grid.centres
     for axis, end in grid.free_edges[name]:
-        patches = np.abs(end - place[:, axis]) * shape[axis]
-        if len(centres) < _FEWEST_CELLS or not patches.min() < 1.0:
+        shares = np.abs(end - place[:, axis])
+        if len(centres) < _FEWEST_CELLS or not shares.min() < _WITHIN:
             continue
-        slope = _slope(centres, place[:, axis], patches)
+        slope = _slope(centres, place[:, axis], shares)
         steepness = float(np.hypot(*slope))
         if not steepness > 0.0:
             continue
         across = slope / steepness
         size = np.hypot(across[0] * grid.half[:, 0], across[1] * grid.half[:, 1])
-        away = patches / (shape[axis] * steepness)
+        away = shares / steepness
         along = centres @ np.array([-across[1], across[0]])
-        yield _Beside(axis, end, away, along, _weight(patches), np.stack([size, grid.half.prod(axis=1) / size]))
+        yield _Beside(axis, end, away, along, _weight(shares), np.stack([size, grid.half.prod(axis=1) / size]))
 
 
-def _slope(centres: Floats, share: Floats, patches: Floats) -> Floats:
+def _slope(centres: Floats, share: Floats, away: Floats) -> Floats:
     """Change (2,) per mm of a share of the flank along the axes of the contact plane, beside an edge."""
-    chosen: Bools = patches <= max(1.0, float(np.sort(patches)[_FEWEST_CELLS - 1]))
-    linear = np.column_stack([np.ones(int(chosen.sum())), centres[chosen]])
-    _, *slope = np.linalg.lstsq(linear, share[chosen], rcond=None)[0]
+    nearest = np.argsort(away)[: max(_FEWEST_CELLS, len(away) // _NEAREST)]
+    linear = np.column_stack([np.ones(len(nearest)), centres[nearest]])
+    _, *slope = np.linalg.lstsq(linear, share[nearest], rcond=None)[0]
     return np.array(slope)
 
 
-def _weight(patches: Floats) -> Floats:
-    """1 at the edge, 0 from one patch away on, level at both."""
-    left = np.clip(1.0 - patches, 0.0, 1.0)
+def _weight(shares: Floats) -> Floats:
+    """1 at the edge, 0 from half of the flank away on, level at both."""
+    left = np.clip(1.0 - shares / _WITHIN, 0.0, 1.0)
     return left**2 * (3.0 - 2.0 * left)
 
 
@@ -135,21 +139,23 @@ def _known(tooth: ToothCompliance, material: Material, edges: tuple[tuple[int, f
     ends, n = dict(edges), _PER_PATCH
     lengths = [2.0 * half for half in tooth.half]
     # Patches along both axes from the edge, where there is one, and cells in them.
-    counts = [1 if axis in ends else tooth.shape[axis] for axis in (0, 1)]
+    counts = [math.ceil(_WITHIN * count) if axis in ends else count for axis, count in enumerate(tooth.shape)]
     index = np.stack(np.meshgrid(*(np.arange(k) for k in counts), *(np.arange(n),) * 2, indexing="ij")).reshape(4, -1)
     steps = index[:2] + (index[2:] + 0.5) / n
     half = (0.5 * lengths[0] / n, 0.5 * lengths[1] / n)
     cells = tuple(
         _Beside(
-            axis, end, lengths[axis] * steps[axis], lengths[1 - axis] * steps[1 - axis], _weight(steps[axis]),
+            axis, end, lengths[axis] * steps[axis], lengths[1 - axis] * steps[1 - axis],
+            _weight(steps[axis] / tooth.shape[axis]),
             np.array([[half[axis]], [half[1 - axis]]]).repeat(len(steps[axis]), axis=1),
         )
         for axis, end in ends.items()
     )  # fmt: skip
     patches = counts[0] * counts[1]
     moved = _images(cells, material).reshape(patches, n * n, patches, n * n).sum(axis=(1, 3))
-    chosen = [np.array([-1 if ends[axis] == 1.0 else 0]) if axis in ends else np.arange(tooth.shape[axis])
-              for axis in (0, 1)]  # fmt: skip
+    chosen = [
+        np.arange(tooth.shape[axis])[:: -1 if ends.get(axis) == 1.0 else 1][: counts[axis]] for axis in (0, 1)
+    ]
     at = np.arange(tooth.shape[0] * tooth.shape[1]).reshape(tooth.shape)[np.ix_(*chosen)].ravel()
     whole = np.zeros((tooth.shape[0] * tooth.shape[1],) * 2)
     whole[np.ix_(at, at)] = moved / (n**2 * lengths[0] * lengths[1])

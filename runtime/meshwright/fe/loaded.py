@@ -210,7 +210,8 @@ class _Place:
         """The peak in MPa below which nothing carries a force in N where the load closes so much and touches so wide:
         that of a line under one pressure all along. Source: K. L. Johnson, Contact Mechanics (1985), section 4.2(c).
         """
-        profile, across = self.strip.profile, self.strip.curvature(self.strip.profile.along, 0.5 * width)
+        profile = self.strip.profile
+        across = np.fmin(self.strip.curvature(profile.along, 0.5 * width), profile.curvature)
         (used,) = np.nonzero(profile.opened(closing))
         if not (np.all(across[used] > 0.0) and profile.length[used].any()):
             return 0.0
@@ -379,7 +380,7 @@ def _first_windows(places: tuple[_Place, ...], load: Load) -> dict[int, Window]:
 
 
 def _window(place: _Place, closing: float) -> Window:
-    return Window(closing, _REACH * place.strip.profile.half_width(closing))
+    return Window(closing, min(_REACH * place.strip.profile.half_width(closing), place.strip.reach))
 
 
 def _root(rising) -> float:

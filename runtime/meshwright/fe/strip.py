@@ -69,10 +69,12 @@ class Profile:
         return np.nan_to_num(np.maximum(closing - self.gap, 0.0))
 
     def half_width(self, closing: float) -> float:
-        """How far the flanks would lie in one another across, to one side, at most, mm."""
-        offset, left = np.abs(np.nan_to_num(self.offset)), self.opened(closing)
-        curvature = np.where(self.curvature > 0.0, self.curvature, np.inf)
-        return float(np.max(np.sqrt(offset**2 + 2.0 * left / curvature) - offset))
+        """How far the flanks would lie in one another across, to one side, at most, mm; gaps that do not widen: inf."""
+        left = self.opened(closing)
+        used = left > 0.0
+        offset, curvature = np.abs(self.offset[used]), np.maximum(self.curvature[used], 0.0)
+        with np.errstate(divide="ignore"):
+            return float(np.max(np.sqrt(offset**2 + 2.0 * left[used] / curvature) - offset, initial=0.0))
 
 
 @dataclass(frozen=True)
@@ -166,7 +168,8 @@ class Strip:
         steps = np.diff(along) * np.isfinite(gap[1:] + gap[:-1])
         lengths = 0.5 * (np.append(steps, 0.0) + np.insert(steps, 0, 0.0))
         lengths[lengths > 0.0] *= np.nan_to_num(self.lengths(along[lengths > 0.0]), nan=1.0)
-        return Profile(along, offset, gap, self.curvature(along, _DIFFERENCE * self.reach), lengths)
+        curvature = _between(along, self.curvature(along, _DIFFERENCE * self.reach))
+        return Profile(along, offset, gap, curvature, lengths)
 
     def _on_flanks(self, along: Floats) -> Bools:
         """Whether the curve is on both flanks at stations (...,)."""
