@@ -22,7 +22,7 @@ from meshwright.fe.gear import gear_teeth
 from meshwright.fe.generated_wheel import generated_wheel
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.material import Material, Materials
-from meshwright.fe.pair import GearPair, Member, Touch, lever_arm
+from meshwright.fe.pair import GearPair, Member, Touch
 from meshwright.fe.region_teeth import region_teeth
 from meshwright.fe.rim import RIM_MODULES, check_rim
 from meshwright.fe.sizes import solid_sizes
@@ -68,23 +68,14 @@ def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
     touch = cache(lambda angle: _touch(drive, angle))
     mesh = Mesh.of(drive)
     window = mesh.window
-    lines = window.path is None
-    sense = _sense_of_lines(wheel, touch(0.0)) if lines else mesh.sense
-    sense = int(sense) if np.isfinite(sense) else int(np.sign(drive.design.flank))
-    edge = cache(partial(_edge, drive, None if lines else first_contact_of(mesh)))
-    teeth = None if lines else mesh.rigid
+    sense = int(mesh.sense) if np.isfinite(mesh.sense) else int(np.sign(drive.design.flank))
+    edge = cache(partial(_edge, drive, first_contact_of(mesh)))
+    teeth = mesh.rigid
     leader = cache(lambda angle: None if teeth is None else teeth.leader(angle)[0])
     middle = _middle_pair(window, drive.pitch())
     ends = dict.fromkeys(f"{end.reason} of the {end.member}" for end in (window.begin, window.end) if end.member)
     contacts = touch, edge, leader, middle
     return GearPair(pinion, wheel, drive.ratio, sense, *contacts, assumed, mesh.contact_ratio, tuple(ends))
-
-
-def _sense_of_lines(wheel: Member, touch: Touch | None) -> float:
-    """The ``sense`` of a :class:`~meshwright.fe.pair.GearPair` whose flanks touch along lines; NaN if unknown."""
-    if touch is None:
-        return math.nan
-    return math.copysign(1.0, wheel.turning * lever_arm(wheel, touch.point, touch.normal))
 
 
 def teeth_of(drive: Drive, member: MemberName, rim_thickness: float | None) -> Teeth:
@@ -171,7 +162,7 @@ def _edge(drive: Drive, first: Callable[[Floats], FirstContacts] | None, angle: 
     if first is None:
         return None
     found = first(np.array([angle]))
-    if found.kinds[0] in (None, "tangency"):
+    if found.kinds[0] in (None, "tangency", "line"):
         return None
     normal = found.normals[0] / np.linalg.norm(found.normals[0])
     wheel_angle = drive.ratio * angle + float(found.errors[0])
