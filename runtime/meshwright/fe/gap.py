@@ -24,8 +24,10 @@ _ON_EDGE = 1e-9
 _OUTLINE = 9
 # Beyond their outlines there may be more of the flanks between those places, in parts of their extent.
 _BEYOND = 0.05
-# Differences that tell how a gap curves are taken over this part of the extent of the flanks.
-_DIFFERENCE = 0.01
+# Loads close about this part of the extent of the flanks.
+_CLOSED = 2e-4
+# Directions and distances, each half of the next, at which it is seen how far they do.
+_DIRECTIONS, _HALVINGS = 180, 16
 
 
 @dataclass(frozen=True)
@@ -87,14 +89,14 @@ class ContactPlane:
     def of(cls, gear: GearPair, contact: PairTouch, angles: tuple[float, float]) -> ContactPlane:
         """angles: pinion and wheel angle in rad of the whole bodies.
 
-        The major axis is the direction of the contact, and of an edge that in which the gap curves least.
+        The major axis is the direction of the contact, and of an edge that in which most of the gap is closed.
         """
         touch = contact.touch
         if np.isfinite(touch.major_direction).all():
             return cls._along(gear, contact, angles, touch.major_direction)
         some = np.linalg.svd(touch.normal[None])[2][1]
         plane = cls._along(gear, contact, angles, some)
-        return cls._along(gear, contact, angles, plane._least_curved())
+        return cls._along(gear, contact, angles, plane._longest())
 
     @classmethod
     def _along(
@@ -109,16 +111,22 @@ class ContactPlane:
         }  # fmt: skip
         return cls(contact, axes, flanks)
 
-    def _least_curved(self) -> Floats:
-        """Unit direction (3,) in the plane in which the gap of the surfaces at the contact curves least."""
-        low, high = self.extents()
-        step = _DIFFERENCE * float(np.min(high - low))
-        places = step * np.stack(np.meshgrid([-1.0, 0.0, 1.0], [-1.0, 0.0, 1.0], indexing="ij"), axis=-1)
-        gap = self.gaps(self.feet(places.reshape(-1, 2)))[0].reshape(3, 3)
-        mixed = 0.25 * (gap[2, 2] - gap[2, 0] - gap[0, 2] + gap[0, 0])
-        bends = [gap[2, 1] - 2.0 * gap[1, 1] + gap[0, 1], gap[1, 2] - 2.0 * gap[1, 1] + gap[1, 0]]
-        _, ways = np.linalg.eigh([[bends[0], mixed], [mixed, bends[1]]])
-        return ways[:, 0] @ self.axes[:2]
+    def _longest(self) -> Floats:
+        """Unit direction (3,) in the plane in which the place about the contact is longest where both flanks are less
+        than what loads close apart.
+        """
+        size = float(np.min(np.diff(self.extents(), axis=0)))
+        angles = 2.0 * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
+        ways = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        radii = size * 0.5 ** np.arange(_HALVINGS)[::-1]
+        gap, inside = self.gaps(self.feet((ways[:, None] * radii[:, None]).reshape(-1, 2)))
+        closed = (inside & (gap < _CLOSED * size + np.nanmin(np.where(inside, gap, np.nan), initial=0.0))).reshape(
+            len(angles), -1
+        )
+        count = np.where(closed.all(axis=1), len(radii), np.argmin(closed, axis=1))
+        reach = np.where(count > 0, radii[count - 1], 0.0)
+        _, axes = np.linalg.eigh(np.einsum("k,ki,kj->ij", reach**4, ways, ways))
+        return axes[:, 1] @ self.axes[:2]
 
     def feet(self, centres: Floats) -> Floats:
         """Points (N, 3) of the plane, fixed frame, that are (N, 2) mm from the contact along its axes."""

@@ -46,6 +46,8 @@ _ROOM = 0.3
 _SPRINGS = 0.45
 # Strips end no sooner than where gaps are so large, in parts of what the load closes: along lines they are all alike.
 _LEAST_CLOSED = 0.4
+# Those that pressure has reached the end of end beyond all that is closed.
+_ALL_CLOSED = 1.1
 # Cells that springs close reach further than pressure does.
 _REACH = 0.8
 _LEAST_SHARE = 0.05
@@ -306,15 +308,14 @@ def _next_window(closing: float, window: Window, grid: ContactGrid, pressures: F
     about = grid.row_gap[max(rows[0] - 1, 0) : rows[-1] + 2]
     low, high = grid.row_gap.min(), about.max()
     reach = float(low + (1.0 + _ROOM) * (high - low))
-    least = float(low + _LEAST_CLOSED * max(closing - low, 0.0))
+    whole = window.whole or bool(leaking[0])
+    least = float(low + (_ALL_CLOSED if whole else _LEAST_CLOSED) * max(closing - low, 0.0))
     last = int(np.argmax(np.where(pressed, np.abs(grid.offset), -1.0)))
     touching, cell = abs(float(grid.offset[last])) + float(grid.half[last, 1]), 2.0 * float(grid.half[last, 1])
     width = min(touching + max(_ROOM * touching, cell), window.width)
     if leaking[1]:
         width = _WIDER * window.width
-    if leaking[0]:
-        reach = float(low + _WIDER**2 * (window.closing - low))
-    return Window(max(reach, least), width)
+    return Window(max(reach, least), width, whole)
 
 
 def _resolved(
@@ -380,7 +381,7 @@ def _first_windows(places: tuple[_Place, ...], load: Load) -> dict[int, Window]:
 
 
 def _window(place: _Place, closing: float) -> Window:
-    return Window(closing, min(_REACH * place.strip.profile.half_width(closing), place.strip.reach))
+    return Window(closing, _REACH * place.strip.half_width(closing))
 
 
 def _root(rising) -> float:

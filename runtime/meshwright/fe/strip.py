@@ -8,6 +8,7 @@ the gap is larger than what the load closes. There is one strip for tangencies, 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
@@ -38,6 +39,8 @@ _KNOWN = 1e-7
 _END_STATIONS, _END_ROUNDS = 16, 5
 # What bounds a cell is told so far beyond its border, in parts of the width of the strip.
 _BEYOND = 1e-4
+# Cells across a curve that bends sharply are at least so long on its inside, in parts of their row.
+_LEAST_LENGTH = 0.1
 # Rows at an end are so much shorter than those in the middle.
 _SHORTER = 0.6
 
@@ -45,11 +48,12 @@ _SHORTER = 0.6
 @dataclass(frozen=True)
 class Window:
     """The part of a strip that is divided: where the gap is less than ``closing``, and not further than ``width`` from
-    the place of the least gap across, both in mm.
+    the place of the least gap across, both in mm; ``whole``: pressure has reached its end, it stays as long as that.
     """
 
     closing: float
     width: float
+    whole: bool = False
 
 
 @dataclass(frozen=True)
@@ -67,14 +71,6 @@ class Profile:
     def opened(self, closing: float) -> Floats:
         """Closing (K,) in mm that is left for the flanks at each station where the load closes so much."""
         return np.nan_to_num(np.maximum(closing - self.gap, 0.0))
-
-    def half_width(self, closing: float) -> float:
-        """How far the flanks would lie in one another across, to one side, at most, mm; gaps that do not widen: inf."""
-        left = self.opened(closing)
-        used = left > 0.0
-        offset, curvature = np.abs(self.offset[used]), np.maximum(self.curvature[used], 0.0)
-        with np.errstate(divide="ignore"):
-            return float(np.max(np.sqrt(offset**2 + 2.0 * left[used] / curvature) - offset, initial=0.0))
 
 
 @dataclass(frozen=True)
@@ -170,6 +166,25 @@ class Strip:
         lengths[lengths > 0.0] *= np.nan_to_num(self.lengths(along[lengths > 0.0]), nan=1.0)
         curvature = _between(along, self.curvature(along, _DIFFERENCE * self.reach))
         return Profile(along, offset, gap, curvature, lengths)
+
+    def half_width(self, closing: float) -> float:
+        """How far flanks would lie in one another across, to one side, at most, mm, where the load closes so much."""
+        profile = self.profile
+        used = profile.opened(closing) > 0.0
+        along, middle, least = profile.along[used], profile.offset[used], profile.gap[used]
+        distance = np.concatenate([[0.0], self.reach * 0.5 ** np.arange(_DOUBLINGS)[::-1]])
+        widest = 0.0
+        for side in (-1.0, 1.0):
+            stations, offsets = np.broadcast_arrays(along[:, None], middle[:, None] + side * distance)
+            gaps = np.where(self.margin(stations, offsets) >= 0.0, self.gap(stations, offsets), np.inf)
+            gaps[:, 0] = least
+            last = np.argmax(np.column_stack([gaps[:, 1:] >= closing, np.ones(len(along), dtype=bool)]), axis=1)
+            rows, after = np.arange(len(along)), np.minimum(last + 1, len(distance) - 1)
+            rise = gaps[rows, after] - gaps[rows, last]
+            share = np.divide(closing - gaps[rows, last], rise, out=np.zeros_like(rise), where=rise > 0.0)
+            between = distance[last] ** 2 + np.clip(share, 0.0, 1.0) * (distance[after] ** 2 - distance[last] ** 2)
+            widest = max(widest, math.sqrt(np.max(between, initial=0.0)))
+        return widest
 
     def _on_flanks(self, along: Floats) -> Bools:
         """Whether the curve is on both flanks at stations (...,)."""
@@ -275,7 +290,7 @@ class Strip:
         frame, longer = self._on_flank(np.repeat(along, columns), normals)
         # Rows across a bent curve are longer on its outside, as their centres are further apart there.
         slope, bend = self.curve(along, 1), self.curve(along, 2)
-        turned = 1.0 - offsets * (bend / (1.0 + slope**2) ** 1.5)[:, None]
+        turned = np.maximum(1.0 - offsets * (bend / (1.0 + slope**2) ** 1.5)[:, None], _LEAST_LENGTH)
         length = (steps * np.hypot(1.0, slope))[:, None] * turned
         half = 0.5 * longer * np.stack([length.ravel(), np.repeat(size, columns)], axis=1)
         free, beyond = self._bounds(along, steps, offsets, sides, cut)
