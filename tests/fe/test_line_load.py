@@ -118,6 +118,19 @@ def test_less_crowning_leads_to_the_line(torque):
     assert peaks.min() > line and peaks[-1] < 1.03 * line
 
 
+def test_a_tilted_line_touches_on_an_edge_and_tends_to_the_line():
+    """Shafts out of line: the end of a face touches first; less and less of it leads to the load along the line."""
+    peaks = []
+    for degrees in (0.01, 0.001, 0.0):
+        gear = gear_pair(FZG_C14.with_(misalignment={"vertical_deg": degrees}))
+        found = loaded_contact(gear, 0.0, 1, Load(200e3, "pinion"), None)
+        pair = next(pair for pair in found.pairs if pair.contact.pairs_later == 0)
+        assert not found.unresolved and bool(pair.contact.touch.edge) == (degrees > 0.0)
+        assert pair.force == pytest.approx(5912.1, rel=1e-4)
+        peaks.append(pair.peak_pressure)
+    assert peaks[0] > peaks[1] > 1346.28 and peaks[1] == pytest.approx(peaks[2], rel=_ROOM)
+
+
 def test_an_equal_hob_gives_three_curved_lines_that_share_the_torque():
     """The least peak of all three together under 300 N m on the wheel."""
     gear = gear_pair(EQUAL_HOB)
