@@ -9,10 +9,10 @@ and its peak is no lower than the least with which lines can carry the force (Jo
 not_resolved and has no figures. Where an edge of a flank cuts a contact off and the mate goes on, pressure rises there
 without limit as cells get finer: such a peak is named, with Hertz's pressure under the same force. With --measured a
 flank has the measured deviations, every tooth those of the one measured; nothing beyond the measured grid touches.
-Where the bounded flanks of a pair touch first on an edge or at a corner, the pair carries there: on half-spaces with
-the free edges of a quarter-space, and the tooth behind; force and share hold, the peak of pressure is as sharp as the
-cells. Exit status 1 without figures: if no tooth pair touches at one of the angles, its contact under load is not found
-or not resolved, or the torque is too large for the method.
+Where the bounded flanks of a pair touch first on an edge or at a corner, as those of gears out of line do, the pair
+carries from there on: on half-spaces with the free edges of a quarter-space, and the tooth behind; force and share
+hold, the peak of pressure is as sharp as the cells. Exit status 1 without figures: if no tooth pair touches at one of
+the angles, its contact under load is not found or not resolved, or the torque is too large for the method.
 """
 
 import numpy as np
