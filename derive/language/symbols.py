@@ -84,7 +84,7 @@ _INTERFACE_UNITS: dict[str, tuple[str, sp.Expr]] = {
 CONVERSIONS: tuple[tuple[str, str, sp.Expr], ...] = (
     ("_in", "_mm", sp.S.One),
     ("_diameter_mm", "_radius_mm", sp.Integer(2)),
-    ("_radius_mm", "_diameter_mm", sp.S.Half),
+    ("_radius_mm", "_diameter_mm", sp.Rational(1, 2)),
 )
 
 

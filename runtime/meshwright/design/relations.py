@@ -169,6 +169,7 @@ class Completion:
     relations: list[Relation]
     known: dict[str, Known] = field(default_factory=dict)
     usual: set[str] = field(default_factory=set)  # assumed as every design of the family is completed
+    led: set[str] = field(default_factory=set)  # assumed because of a size that is given
 
     @classmethod
     def of(cls, drawing: Drawing, entries: Mapping[str, float]) -> Completion:
@@ -189,7 +190,7 @@ class Completion:
     def complete(self) -> None:
         """Derive and assume what follows from the sizes given; raises :class:`DesignError` where two contradict."""
         self.known = {name: Known(size["given"], GIVEN, "", frozenset({name})) for name, size in self.given.items()}
-        self.usual = set()
+        self.usual, self.led = set(), set()
         self.close()
 
     def close(self) -> None:
@@ -237,6 +238,8 @@ class Completion:
                 number = float(round(number)) if integer else number
                 self._know(target, number, ASSUMED, default["why"], names(default["value"]))
                 self.usual |= {target} if default["usual"] else set()
+                own = any(p["name"] == target for p in self.drawing.parameters)
+                self.led |= {target} if default["needs"] and own else set()
                 return True
         return False
 
@@ -273,6 +276,16 @@ class Completion:
         else:
             reason += f"by {r.text(r.size)}"
         return DesignError(size["place"], size["shown"], reason, "leave one of them out")
+
+    def determined(self) -> dict[str, float | int]:
+        """The keys of a design that follow from the sizes given, by "table.key", in their units."""
+        found = {}
+        for place, p in self.drawing.places.items():
+            known = self.known.get(p["name"])
+            settled = known and (known.provenance == DERIVED or (self.led and p["name"] not in self.usual))
+            if known and settled and place not in self.drawing.beside and known.provenance != GIVEN:
+                found[place] = round(known.value) if p["integer"] else known.value / p["factor"]
+        return found
 
     def open_ends(self, required: Iterable[str]) -> DesignError | None:
         """The error that names what would close the design: what is ``required`` and open, or is given and leads to
