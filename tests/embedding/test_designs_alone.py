@@ -66,4 +66,6 @@ def test_a_design_of_keys_is_completed_and_solved_by_its_header(tmp_path, name):
     done = subprocess.run([tmp_path / "design"], capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
     sign = drive.design.mirror.sign
-    assert float.fromhex(done.stdout) == sign * drive.tca([sign * angle]).error[0]
+    result = drive.tca([sign * angle])
+    rounding = 0.0 if result.status[0] == "converged" else 1e-15  # of a line, whose point is nobody's
+    assert abs(float.fromhex(done.stdout) - sign * result.error[0]) <= rounding
