@@ -279,9 +279,10 @@ def _matrices(drive, tca):
 
 def _patches(drive, tca, matrices):
     """Both flanks around the path of contact; none where there are no contact points."""
-    if not tca.solved.any():
+    solved = tca.solved & np.isfinite(tca.solutions).all(axis=1)  # a line has no solution where Newton's method has none
+    if not solved.any():
         return {}
-    flip, solved = drive.design.mirror.flip, tca.solved
+    flip = drive.design.mirror.flip
     major, normal = flip * tca.major[solved], flip * tca.normals[solved]
     lengths = np.nan_to_num(tca.semi_axes[solved])
     ellipses = np.stack([major, np.cross(normal, major)], axis=1) * lengths[:, :, None]
@@ -309,7 +310,10 @@ def _line_patches(drive, lines):
 
 
 def _edge_patches(drive, tca):
-    """Both whole flanks; none where nothing touches, or one of them cannot be bounded."""
+    """Both whole flanks; none where nothing touches, or one of them cannot be bounded though they touch on edges alone.
+
+    Raises :class:`~meshwright.base.errors.UsageError` where a flank that touches along a line cannot be bounded.
+    """
     if not np.isfinite(tca.points).all(axis=1).any():
         return {}
     patches = {}
@@ -317,6 +321,8 @@ def _edge_patches(drive, tca):
         try:
             triangles = mesh(drive.region(body["name"]), FLANK_CELLS)
         except UsageError:
+            if tca.solved.any():
+                raise
             return {}
         size, path = np.linalg.norm(np.ptp(triangles.points, axis=0)), triangles.parameters
         patches[body["name"]] = patch(drive.flank(body["name"]), path, np.zeros((len(path), 2, 3)), size / 40)
