@@ -279,7 +279,7 @@ def _matrices(drive, tca):
 
 def _patches(drive, tca, matrices):
     """Both flanks around the path of contact; none where there are no contact points."""
-    solved = tca.solved & np.isfinite(tca.solutions).all(axis=1)  # a line has no solution where Newton's method has none
+    solved = tca.solved & np.isfinite(tca.solutions).all(axis=1)  # Newton has none of some lines
     if not solved.any():
         return {}
     flip = drive.design.mirror.flip
