@@ -283,7 +283,7 @@ def test_a_path_with_a_gap_at_angle_0_still_says_which_way_the_wheel_is_pushed()
 
 def test_flanks_that_touch_for_one_instant_have_one_tooth_in_contact_at_it():
     """A wheel as wide as rounding, whose tip begins the contact where its root ends it: no pitch, one tooth."""
-    thin = {"pinion_sphere_radius_mm": 5000.0, "wheel_edge_offset_mm": 1e-15, "wheel_face_width_mm": 1e-15}
+    thin = {"pinion_sphere_radius_mm": 5000.0, "wheel_edge_offset_mm": 1e-13, "wheel_face_width_mm": 1e-13}
     found = Drive.load("spherical-table-2-3").with_(flank="left", design=thin).contact_ratio()
     assert found.contact_ratio == found.average_over_pitch == 0.0
     assert found.average_begin_to_end == 1.0
