@@ -7,7 +7,7 @@ import pytest
 from meshwright import Drive
 from meshwright.base.errors import UsageError
 from meshwright.base.library import ffi, library, pointer, record
-from tests.contact.test_paths_agree import VARIED, _random
+from tests.contact.test_paths_agree import VARIED, _alone, _random
 from tests.quick import quick
 
 #: Angles and threads of theory, with pair and own angle to twenty digits.
@@ -77,13 +77,6 @@ def _followed(drive, angles):
     return x, records
 
 
-def _solved(drive, angle):
-    m, info = drive.model, ffi.new("mw_info *")
-    s, work, x = np.empty(m.ns), np.empty(m.np), np.empty(m.nx)
-    p = pointer(drive.design.parameters)
-    return library().mw_solve(m, p, angle, pointer(s), pointer(work), pointer(x), info), x
-
-
 @pytest.mark.parametrize("name", quick(VARIED, "zk-zn-45", "helical-crowned", "spherical-table-2-3"))
 def test_a_contact_has_the_same_bits_whatever_was_asked_before(name):
     """Forwards, backwards, shuffled and alone; random misalignments, over some pitches and far away."""
@@ -99,7 +92,7 @@ def test_a_contact_has_the_same_bits_whatever_was_asked_before(name):
             assert np.array_equal(other["status"], records["status"][rows])
             assert np.array_equal(other["angle"], records["angle"][rows])
         for k in range(0, len(angles), 7):
-            status, alone = _solved(drive, records["angle"][k])
+            status, alone = _alone(drive, records["angle"][k])
             assert status == records["status"][k] and alone.tobytes() == x[k].tobytes()
 
 
@@ -128,7 +121,7 @@ def test_a_warm_step_is_taken_and_a_foreign_start_is_not():
     assert records["cold"][0] == 1 and not records["cold"][1:].any()
     _, apart = _followed(drive, np.array([0.0, 0.3, 0.6]))
     assert apart["cold"].all()
-    assert np.array_equal(x[0], _solved(drive, 0.0)[1])
+    assert np.array_equal(x[0], _alone(drive, 0.0)[1])
 
 
 def test_a_pair_is_not_followed_where_its_tooth_faces_away():
@@ -136,6 +129,6 @@ def test_a_pair_is_not_followed_where_its_tooth_faces_away():
     drive = Drive.load("helical-crowned")
     away = np.pi / drive.ratio
     for angle in (1.01 * away, -1.01 * away, 1e5, 1e12):
-        status, x = _solved(drive, angle)
+        status, x = _alone(drive, angle)
         assert library().mw_status_word(status) == library().mw_status_word(-1)
         assert np.isnan(x).all()

@@ -17,6 +17,9 @@ static inline double mwi_larger(double a, double b)
     return a > b ? a : b;
 }
 
+/* Added and taken off again it rounds a number below 2^51 to an integer. */
+static const double MWI_TO_INTEGER = 6755399441055744.0;
+
 static inline void mwi_copy(double *to, const double *from, int n)
 {
     for (int i = 0; i < n; i++) to[i] = from[i];

@@ -13,7 +13,7 @@ static const double MWI_FIRST = 1.0 / 64.0; /* rad */
 /* Between stations the unknowns move by a part of their natural sizes. */
 static const double MWI_STATION = 0.25; /* rad */
 
-/* No tooth turns away from its mate before this angle, rad, and no drive is so quick that half a turn of the wheel takes less. */
+/* So near to its reference, rad, no tooth is asked whether the wheel has turned it away: no wheel turns half a turn sooner. */
 static const double MWI_FAR = 1.0;
 static const double MWI_HALF_A_TURN = 3.141592653589793;
 
@@ -26,21 +26,21 @@ static const double MWI_CONTRACTION = 0.1;
 
 /* Solutions are made the same, to the last bit, wherever Newton's method came from: rounded to this part of a natural size, then
  * two steps, the second of which is round-off. */
-static const double MWI_GRID = 1e-8 * 6755399441055744.0;
+static const double MWI_GRID = 1e-8;
 static const double MWI_NO_FURTHER = 1e-7;
 
 /* A tooth pair and the branch of its reference, walked along stations at equal spacing from it, so that every angle is
  * reached by the same steps whichever angles are asked for. p[np] complete; s[ns] and work[np] are written. The newest of
  * `walked` is the station reached, counted from the reference and negative below it; `ended` says why none comes after
- * it, 0 where one may. `bend`, once `bent`, is the sign of curvature of the branch; the wheel
- * turns half a turn within `reach`, 0: not known yet. */
+ * it, 0 where one may. `bend` is the sign of curvature of the branch; the wheel turns half a turn within `reach`, 0: not
+ * known yet. */
 typedef struct mwi_pair {
     const mw_model *m;
     const double *p;
     double *s, *work;
     mwi_history reference, walked;
     double at_reference[MW_MAX_UNKNOWNS], at[2][MW_MAX_UNKNOWNS], beside[MW_MAX_UNKNOWNS], reach;
-    int station, ended, bent, bend;
+    int station, ended, bend;
 } mwi_pair;
 
 static inline void mwi_begin_walk(mwi_pair *t)
@@ -50,9 +50,14 @@ static inline void mwi_begin_walk(mwi_pair *t)
 }
 
 /* Where the pair meets in the middle of its flanks. */
+static inline double mwi_reference_of(const mw_model *m, const double *p)
+{
+    return m->reference < 0 ? 0.0 : p[m->reference];
+}
+
 static inline double mwi_reference_angle(const mwi_pair *t)
 {
-    return t->m->reference < 0 ? 0.0 : t->p[t->m->reference];
+    return mwi_reference_of(t->m, t->p);
 }
 
 /* The tangency at a reference angle: what the start values lead to or, at the first and if that is impossible, a contact
@@ -74,7 +79,7 @@ static inline void mwi_find_reference(mwi_pair *t)
     double angle = mwi_reference_angle(t), next = MWI_FIRST;
     int found = mwi_tangency_at(t, angle, &info);
     t->reference = mwi_no_history();
-    t->bent = t->bend = 0, t->reach = 0.0;
+    t->bend = 0, t->reach = 0.0;
     for (int k = 0; k < 2 * MWI_DOUBLINGS && !found; k++) {
         angle = mwi_reference_angle(t) + (k % 2 ? -next : next);
         if (k % 2) next *= 2.0;
@@ -83,6 +88,10 @@ static inline void mwi_find_reference(mwi_pair *t)
     /* a point of a contact line is arbitrary: no branch begins there */
     if (found && mwi_worth_of(t->m, t->s, t->at_reference) != MWI_OF_A_LINE)
         mwi_remember(&t->reference, angle, t->at_reference);
+    if (t->reference.count > 0) {
+        t->m->set_phi(t->s, angle);
+        t->bend = mwi_bend(t->m, t->s, t->at_reference);
+    }
     t->m->setup(t->p, t->s);
     mwi_begin_walk(t);
 }
@@ -184,7 +193,10 @@ static inline void mwi_settle(const mw_model *m, const double *s, double *x)
 {
     double at[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
     m->scale(s, scale);
-    for (int i = 0; i < m->nx; i++) at[i] = (x[i] + MWI_GRID * scale[i]) - MWI_GRID * scale[i];
+    for (int i = 0; i < m->nx; i++) {
+        const double much = MWI_TO_INTEGER * (MWI_GRID * scale[i]);
+        at[i] = (x[i] + much) - much;
+    }
     m->step(s, at);
     if (m->step(s, at) < MWI_FUSED_TOLERANCE && mwi_near(m, s, at, x, MWI_NO_FURTHER)) mwi_copy(x, at, m->nx);
 }
@@ -198,27 +210,16 @@ static inline int mwi_stride(const mw_model *m, double *s, double phi0, const do
     return mwi_contracted(m, s, x, info) && mwi_is_of(m, s, bend, x);
 }
 
-static inline int mwi_bend_of_branch(mwi_pair *t)
-{
-    if (!t->bent) {
-        t->m->set_phi(t->s, t->reference.phi[0]);
-        t->bend = mwi_bend(t->m, t->s, t->reference.x[0]);
-    }
-    t->bent = 1;
-    return t->bend;
-}
-
 /* The point of the branch at phi in as few strides from the reference as serve. Returns 0 where so many do not. */
 static inline int mwi_strode(mwi_pair *t, double phi, double *x, mw_info *info)
 {
     const double first = t->reference.phi[0];
-    const int bend = mwi_bend_of_branch(t);
     for (int strides = 1; strides <= MWI_MAX_STRIDES; strides *= 2) {
         double from[MW_MAX_UNKNOWNS], before = first;
         mwi_copy(from, t->reference.x[0], t->m->nx);
         for (int k = 1; k <= strides; k++) {
             const double next = k == strides ? phi : first + (phi - first) * k / strides;
-            if (!mwi_stride(t->m, t->s, before, from, bend, next, x, info)) break;
+            if (!mwi_stride(t->m, t->s, before, from, t->bend, next, x, info)) break;
             if (k == strides) return 1;
             mwi_copy(from, x, t->m->nx);
             before = next;

@@ -29,7 +29,6 @@ static inline int mwi_recall(mwi_pair *t, const double *kept)
     }
     t->reference = mwi_no_history();
     mwi_copy(t->at_reference, kept + MWI_KEPT, nx);
-    t->bent = 1;
     t->bend = (int)kept[MWI_BEND_KEPT];
     t->reach = 0.0;
     if (kept[MWI_REFERENCE_KEPT] < HUGE_VAL) mwi_remember(&t->reference, kept[MWI_REFERENCE_KEPT], t->at_reference);
@@ -37,12 +36,12 @@ static inline int mwi_recall(mwi_pair *t, const double *kept)
     return 0;
 }
 
-static inline void mwi_keep(mwi_pair *t, double *kept, double last, const double *x)
+static inline void mwi_keep(const mwi_pair *t, double *kept, double last, const double *x)
 {
-    const int nx = t->m->nx, has = t->reference.count > 0;
-    kept[MWI_REFERENCE_KEPT] = has ? t->reference.phi[0] : HUGE_VAL;
+    const int nx = t->m->nx;
+    kept[MWI_REFERENCE_KEPT] = t->reference.count > 0 ? t->reference.phi[0] : HUGE_VAL;
     kept[MWI_LAST_KEPT] = last;
-    kept[MWI_BEND_KEPT] = has ? (double)mwi_bend_of_branch(t) : 0.0;
+    kept[MWI_BEND_KEPT] = (double)t->bend;
     mwi_copy(kept + MWI_KEPT, t->at_reference, nx);
     mwi_copy(kept + MWI_KEPT + nx, x, nx);
 }
@@ -64,18 +63,18 @@ static inline int mwi_go_on(const mw_model *m, double *s, double *kept, double p
 
 static inline double mwi_own_angle(const mw_model *m, const double *p, double phi, double *pair)
 {
-    return mwi_reduce(p[m->teeth], m->reference < 0 ? 0.0 : p[m->reference], phi, pair);
+    return mwi_reduce(p[m->teeth], mwi_reference_of(m, p), phi, pair);
 }
 
 /* s[ns] from setup, left set up for info->angle; p[np] its parameters; work[np]; x[nx] in: what the call before gave, or not a
  * number; out: the contact, not a number where there is none. Returns info->status. */
 static inline int mwi_follow(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
 {
-    double pair, *kept = s + m->memory;
+    double pair, *const kept = mwi_has_memory(m) ? s + m->memory : NULL;
     const double angle = mwi_own_angle(m, p, phi, &pair);
-    const int known = angle == angle, keeps = mwi_has_memory(m), warm = known && keeps && mwi_go_on(m, s, kept, angle, x, info);
+    const int known = angle == angle, warm = known && kept && mwi_go_on(m, s, kept, angle, x, info);
     if (!known) *info = mwi_ended(MW_BAD_INPUT, 0);
-    else if (!keeps) mwi_solve(m, p, angle, s, work, x, info);
+    else if (!kept) mwi_solve(m, p, angle, s, work, x, info);
     else if (!warm) {
         mwi_pair t;
         t.m = m, t.p = p, t.s = s, t.work = work;

@@ -9,9 +9,6 @@ static const double MWI_TURN = 6.283185307179586;
 static const double MWI_TURN_MIDDLE = 2.4492935982947064e-16;
 static const double MWI_TURN_LAST = -5.989539619436679e-33;
 
-/* Added and taken off again it rounds a number below 2^51 to an integer. */
-static const double MWI_TO_INTEGER = 6755399441055744.0;
-
 /* Times a number it leads to the upper half of its digits. */
 static const double MWI_HALVES = 134217729.0;
 
