@@ -17,9 +17,12 @@ def largest_angle():
     return float(library().MW_MAX_TURN)
 
 
-def checked_angles(angles):
-    """Angles (rad) as an array (N,); raises :class:`~meshwright.base.errors.UsageError` for what cannot be traced."""
-    return _numbers("angles: must be a one-dimensional array of finite numbers", angles, largest_angle(), " rad")
+def checked_angles(angles, most=None):
+    """Angles (rad) as an array (N,); raises :class:`~meshwright.base.errors.UsageError` for what cannot be traced, or
+    lies beyond ``most`` where that is given.
+    """
+    most = largest_angle() if most is None else most
+    return _numbers("angles: must be a one-dimensional array of finite numbers", angles, most, " rad")
 
 
 def checked_angle(angle):

@@ -4,9 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshwright.base.errors import UsageError
 from meshwright.base.library import library, pointer, record
-from meshwright.contact.analysis import statuses
+from meshwright.contact.analysis import checked_angles, statuses
 
 
 @dataclass(frozen=True)
@@ -32,10 +31,7 @@ def turning(drive, angles):
     Raises :class:`~meshwright.base.errors.UsageError` for what is no angle or beyond 10¹² rad.
     """
     m, lib, sign = drive.model, library(), drive.design.mirror.sign
-    angles = np.atleast_1d(np.ascontiguousarray(angles, dtype=float))
-    most = lib.mw_largest_angle()
-    if angles.ndim != 1 or not np.all(np.abs(angles) <= most):
-        raise UsageError(f"angles: must be a one-dimensional array of finite numbers; give none beyond {most:g} rad")
+    angles = checked_angles(angles, lib.mw_largest_angle())
     n = len(angles)
     s, work, x = np.empty(m.ns), np.empty(m.np), np.empty((n, m.nx))
     records = np.zeros(n, record("mw_info"))
