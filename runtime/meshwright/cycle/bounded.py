@@ -41,9 +41,8 @@ def bounded(drive, result):
     found = search.first(result.angles[rows])
     late = found.overlaps(result.error[rows]) > OVERLAP
     along = [None if behind else lines.get(int(k)) for k, behind in zip(rows, late, strict=True)]
-    told = np.array([line is not None or kind is not None or without
-                     for line, kind, without in zip(along, found.kinds, found.untouched, strict=True)], dtype=bool) 
-                     # fmt: skip
+    judged = zip(along, found.kinds, found.untouched, strict=True)
+    told = np.array([line is not None or kind is not None or without for line, kind, without in judged], dtype=bool)
     if not told.any():
         return result
     kinds = ["line" if line else kind for line, kind in zip(along, found.kinds, strict=True)]

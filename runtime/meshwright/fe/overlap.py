@@ -10,9 +10,12 @@ import numpy as np
 from meshwright.fe.gap import Bools, ContactGrid, ContactPlane, cell_centres, contact_grid
 from meshwright.fe.hexahedra import Floats
 
-# Cells along a side with which the rectangle is looked for, and how many of these it has to fill, in parts; rounds of
-# that, and how much wider than what overlaps the rectangle is, in parts of its sides.
-_CELLS, _FILLED, _ROUNDS, _ROOM = 15, 0.4, 10, 0.08
+# Cells along a side with which the rectangle is looked for, and the part of them that has to overlap.
+_CELLS = 15
+_FILLED = 0.4
+# Rounds of looking, and how much wider than what overlaps the rectangle is, in parts of its sides.
+_ROUNDS = 10
+_ROOM = 0.08
 
 
 def overlap_grid(plane: ContactPlane, apart: float, closing: float, cells: int) -> ContactGrid | None:
