@@ -47,17 +47,19 @@ def line_ends(drive, limits):
 
 
 def _end(drive, depth, inside, sign):
-    step, farthest = sign * drive.pitch() / SAMPLES_PER_PITCH, math.pi / drive.ratio
-    while abs(inside - drive.design.reference_angle) < farthest:
+    """The end of the window to one side of an angle inside. Where the line ceases, as it does at the end of a flank, which
+    may come soon after its limits, the step is halved from then on.
+    """
+    step, shrunk, farthest = sign * drive.pitch() / SAMPLES_PER_PITCH, 1.0, math.pi / drive.ratio
+    while abs(inside - drive.design.reference_angle) < farthest and abs(step) > LAST_STEP * drive.pitch():
         beyond, _ = depth(inside + step)
-        if not math.isfinite(beyond):  # a flank ends there, and with it the line that passes over its limits before
-            if abs(step) < LAST_STEP * drive.pitch():
-                return None
-            step *= 0.5
-            continue
         if beyond < 0.0:
             angle = bracketed(lambda a: depth(a)[0], inside, inside + step, ANGLE_TOLERANCE)
             names = (depth(angle + share * step)[1] for share in (1e-6, 1e-4, 1e-2, 1.0))
             return float(angle), next(limit for limit in names if limit)
-        inside += step
+        if math.isfinite(beyond):
+            inside += step
+        else:
+            shrunk = 0.5
+        step *= shrunk
     return None
