@@ -8637,6 +8637,7 @@ static inline double mwi_larger(double a, double b)
 {
     return a > b ? a : b;
 }
+static const double MWI_TO_INTEGER = 6755399441055744.0;
 static inline void mwi_copy(double *to, const double *from, int n)
 {
     for (int i = 0; i < n; i++) to[i] = from[i];
@@ -9634,7 +9635,7 @@ static const double MWI_HALF_A_TURN = 3.141592653589793;
 static const double MWI_BESIDE = 1e-5;
 enum { MWI_STRIDE_STEPS = 6, MWI_MAX_STRIDES = 4 };
 static const double MWI_CONTRACTION = 0.1;
-static const double MWI_GRID = 1e-8 * 6755399441055744.0;
+static const double MWI_GRID = 1e-8;
 static const double MWI_NO_FURTHER = 1e-7;
 typedef struct mwi_pair {
     const mw_model *m;
@@ -9642,16 +9643,20 @@ typedef struct mwi_pair {
     double *s, *work;
     mwi_history reference, walked;
     double at_reference[MW_MAX_UNKNOWNS], at[2][MW_MAX_UNKNOWNS], beside[MW_MAX_UNKNOWNS], reach;
-    int station, ended, bent, bend;
+    int station, ended, bend;
 } mwi_pair;
 static inline void mwi_begin_walk(mwi_pair *t)
 {
     t->station = t->ended = 0;
     t->walked = t->reference;
 }
+static inline double mwi_reference_of(const mw_model *m, const double *p)
+{
+    return m->reference < 0 ? 0.0 : p[m->reference];
+}
 static inline double mwi_reference_angle(const mwi_pair *t)
 {
-    return t->m->reference < 0 ? 0.0 : t->p[t->m->reference];
+    return mwi_reference_of(t->m, t->p);
 }
 static inline int mwi_tangency_at(mwi_pair *t, double phi, mw_info *info)
 {
@@ -9668,7 +9673,7 @@ static inline void mwi_find_reference(mwi_pair *t)
     double angle = mwi_reference_angle(t), next = MWI_FIRST;
     int found = mwi_tangency_at(t, angle, &info);
     t->reference = mwi_no_history();
-    t->bent = t->bend = 0, t->reach = 0.0;
+    t->bend = 0, t->reach = 0.0;
     for (int k = 0; k < 2 * MWI_DOUBLINGS && !found; k++) {
         angle = mwi_reference_angle(t) + (k % 2 ? -next : next);
         if (k % 2) next *= 2.0;
@@ -9676,6 +9681,10 @@ static inline void mwi_find_reference(mwi_pair *t)
     }
     if (found && mwi_worth_of(t->m, t->s, t->at_reference) != MWI_OF_A_LINE)
         mwi_remember(&t->reference, angle, t->at_reference);
+    if (t->reference.count > 0) {
+        t->m->set_phi(t->s, angle);
+        t->bend = mwi_bend(t->m, t->s, t->at_reference);
+    }
     t->m->setup(t->p, t->s);
     mwi_begin_walk(t);
 }
@@ -9761,7 +9770,10 @@ static inline void mwi_settle(const mw_model *m, const double *s, double *x)
 {
     double at[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
     m->scale(s, scale);
-    for (int i = 0; i < m->nx; i++) at[i] = (x[i] + MWI_GRID * scale[i]) - MWI_GRID * scale[i];
+    for (int i = 0; i < m->nx; i++) {
+        const double much = MWI_TO_INTEGER * (MWI_GRID * scale[i]);
+        at[i] = (x[i] + much) - much;
+    }
     m->step(s, at);
     if (m->step(s, at) < MWI_FUSED_TOLERANCE && mwi_near(m, s, at, x, MWI_NO_FURTHER)) mwi_copy(x, at, m->nx);
 }
@@ -9772,25 +9784,15 @@ static inline int mwi_stride(const mw_model *m, double *s, double phi0, const do
     m->set_phi(s, phi);
     return mwi_contracted(m, s, x, info) && mwi_is_of(m, s, bend, x);
 }
-static inline int mwi_bend_of_branch(mwi_pair *t)
-{
-    if (!t->bent) {
-        t->m->set_phi(t->s, t->reference.phi[0]);
-        t->bend = mwi_bend(t->m, t->s, t->reference.x[0]);
-    }
-    t->bent = 1;
-    return t->bend;
-}
 static inline int mwi_strode(mwi_pair *t, double phi, double *x, mw_info *info)
 {
     const double first = t->reference.phi[0];
-    const int bend = mwi_bend_of_branch(t);
     for (int strides = 1; strides <= MWI_MAX_STRIDES; strides *= 2) {
         double from[MW_MAX_UNKNOWNS], before = first;
         mwi_copy(from, t->reference.x[0], t->m->nx);
         for (int k = 1; k <= strides; k++) {
             const double next = k == strides ? phi : first + (phi - first) * k / strides;
-            if (!mwi_stride(t->m, t->s, before, from, bend, next, x, info)) break;
+            if (!mwi_stride(t->m, t->s, before, from, t->bend, next, x, info)) break;
             if (k == strides) return 1;
             mwi_copy(from, x, t->m->nx);
             before = next;
@@ -9858,7 +9860,6 @@ static inline int mwi_solve(const mw_model *m, const double *p, double phi, doub
 static const double MWI_TURN = 6.283185307179586;
 static const double MWI_TURN_MIDDLE = 2.4492935982947064e-16;
 static const double MWI_TURN_LAST = -5.989539619436679e-33;
-static const double MWI_TO_INTEGER = 6755399441055744.0;
 static const double MWI_HALVES = 134217729.0;
 static inline double mwi_upper_half(double a)
 {
@@ -9912,19 +9913,18 @@ static inline int mwi_recall(mwi_pair *t, const double *kept)
     }
     t->reference = mwi_no_history();
     mwi_copy(t->at_reference, kept + MWI_KEPT, nx);
-    t->bent = 1;
     t->bend = (int)kept[MWI_BEND_KEPT];
     t->reach = 0.0;
     if (kept[MWI_REFERENCE_KEPT] < HUGE_VAL) mwi_remember(&t->reference, kept[MWI_REFERENCE_KEPT], t->at_reference);
     mwi_begin_walk(t);
     return 0;
 }
-static inline void mwi_keep(mwi_pair *t, double *kept, double last, const double *x)
+static inline void mwi_keep(const mwi_pair *t, double *kept, double last, const double *x)
 {
-    const int nx = t->m->nx, has = t->reference.count > 0;
-    kept[MWI_REFERENCE_KEPT] = has ? t->reference.phi[0] : HUGE_VAL;
+    const int nx = t->m->nx;
+    kept[MWI_REFERENCE_KEPT] = t->reference.count > 0 ? t->reference.phi[0] : HUGE_VAL;
     kept[MWI_LAST_KEPT] = last;
-    kept[MWI_BEND_KEPT] = has ? (double)mwi_bend_of_branch(t) : 0.0;
+    kept[MWI_BEND_KEPT] = (double)t->bend;
     mwi_copy(kept + MWI_KEPT, t->at_reference, nx);
     mwi_copy(kept + MWI_KEPT + nx, x, nx);
 }
@@ -9943,15 +9943,15 @@ static inline int mwi_go_on(const mw_model *m, double *s, double *kept, double p
 }
 static inline double mwi_own_angle(const mw_model *m, const double *p, double phi, double *pair)
 {
-    return mwi_reduce(p[m->teeth], m->reference < 0 ? 0.0 : p[m->reference], phi, pair);
+    return mwi_reduce(p[m->teeth], mwi_reference_of(m, p), phi, pair);
 }
 static inline int mwi_follow(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
 {
-    double pair, *kept = s + m->memory;
+    double pair, *const kept = mwi_has_memory(m) ? s + m->memory : NULL;
     const double angle = mwi_own_angle(m, p, phi, &pair);
-    const int known = angle == angle, keeps = mwi_has_memory(m), warm = known && keeps && mwi_go_on(m, s, kept, angle, x, info);
+    const int known = angle == angle, warm = known && kept && mwi_go_on(m, s, kept, angle, x, info);
     if (!known) *info = mwi_ended(MW_BAD_INPUT, 0);
-    else if (!keeps) mwi_solve(m, p, angle, s, work, x, info);
+    else if (!kept) mwi_solve(m, p, angle, s, work, x, info);
     else if (!warm) {
         mwi_pair t;
         t.m = m, t.p = p, t.s = s, t.work = work;

@@ -47,8 +47,9 @@ def line_ends(drive, limits):
 
 
 def _end(drive, depth, inside, sign):
-    """The end of the window to one side of an angle inside. Where the line ceases, as it does at the end of a flank, which
-    may come soon after its limits, the step is halved from then on.
+    """The end of the window to one side of an angle inside.
+
+    Where the line ceases, as it does at the end of a flank soon after its limits, the step is halved from then on.
     """
     step, shrunk, farthest = sign * drive.pitch() / SAMPLES_PER_PITCH, 1.0, math.pi / drive.ratio
     while abs(inside - drive.design.reference_angle) < farthest and abs(step) > LAST_STEP * drive.pitch():
