@@ -226,7 +226,13 @@ static int searched(search *h)
         c->reason = MW_REASON_EFFORT;
         return c->outcome;
     }
-    const int verdict = settled(h, h->whole[1], 0, 1, NULL, 0, 0.0, 0);
+    int verdict = settled(h, h->whole[1], 0, 1, NULL, 0, 0.0, 0);
+    if (verdict == OPEN && h->once.parts > 0) {
+        h->once.parts = c->parts;
+        *c = h->once;
+        h->share = h->once_share;
+        verdict = REFUTED;
+    }
     if (verdict == SETTLED) c->outcome = MW_FIRST_PROVED;
     if (verdict == REFUTED) c->outcome = MW_FIRST_REFUTED;
     if (verdict != OPEN) c->reason = MW_REASON_NONE;

@@ -48,13 +48,13 @@ static int holds(trace *t, size_t k)
            mwi_near(t->m, t->pair.s, x, t->x + k * (size_t)t->m->nx, SAME);
 }
 
-/* Solve point k by walking to it, or by search. */
-static void by_walk(trace *t, size_t k)
+/* Solve point k from the reference, or by search. */
+static void from_reference(trace *t, size_t k)
 {
     double *x = t->x + k * (size_t)t->m->nx;
     t->history = mwi_no_history();
     t->checked = k + 1;
-    if (mwi_by_walk(&t->pair, t->phi[k], x, t->info + k)) mwi_remember(&t->history, t->phi[k], x);
+    if (mwi_solved(&t->pair, t->phi[k], x, t->info + k)) mwi_remember(&t->history, t->phi[k], x);
 }
 
 /* Solve as many points from number k on as the inverse Jacobian of one before serves; returns the number of the next. */
@@ -131,7 +131,7 @@ static size_t on_branch(trace *t, size_t k)
         return next;
     }
     if (k > t->checked && !holds(t, k - 1)) return back(t, k);
-    by_walk(t, k);
+    from_reference(t, k);
     return k + 1;
 }
 

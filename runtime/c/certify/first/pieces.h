@@ -57,7 +57,9 @@ static int looked_at(search *h, const range *box, const place *w, const mwc_shee
         c->apart = o.apart;
         c->throughout = o.throughout;
         h->share = o.at[2];
-        return REFUTED;
+        if (o.throughout) return REFUTED;
+        if (h->once.parts == 0) h->once = *c, h->once_share = h->share;
+        return c->parts < h->once.parts + LOOKED_ON ? OPEN : REFUTED;
     }
     return told(h, &whole, 0);
 }

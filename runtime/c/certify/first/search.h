@@ -15,6 +15,7 @@ enum {
     FEWEST = 2000, MANY = 16,                 /* that are looked at, and for each of the wheel's */
     DEEPEST = 32, DEEPEST_EDGE = 14,          /* halvings */
     MOST_OPEN = 64,                           /* parts of the wheel's flank that may stay open, in search of an overlap */
+    LOOKED_ON = 64,                           /* parts after an overlap at one angle, in search of one at every angle */
     CELLS = 48, BLOCK = 8,                    /* across the wheel's flank and along it, where its pieces are told apart; in one */
     MOST_MET = 160, FEW_MET = 6,              /* parts of the pinion's flank whose box is looked at as one; and once more, finer */
     NARROWEST = 12,                           /* steps in which one is narrowed, at most */
@@ -74,6 +75,8 @@ typedef struct search {
     part *list;
     mw_first_certificate *found;
     double share;                             /* of the range of angles, in [-1, 1], where the place found is */
+    mw_first_certificate once;                /* the first overlap at one angle of several; of no parts: none yet */
+    double once_share;
     touching at;
     mw_ball middle[MWC_ARGUMENTS];            /* what the pinion's flank reads, at u = 0 */
     mwc_sheet arguments[2][MWC_ARGUMENTS], registers[MWC_REGISTERS];
