@@ -9,7 +9,7 @@ from functools import cache
 import mpmath
 import sympy as sp
 
-from derive.language.description import prefix, rules, sources
+from derive.language.description import prefix, rules, sources, text
 from derive.language.drive import Count
 from derive.language.replace import replaced
 from derive.language.symbols import interface_unit
@@ -34,6 +34,7 @@ def describe(plan, provenance):
         **identity(drive),
         "abi": ABI,
         "specification_hash": specification_hash(plan),
+        "description_sha256": hashlib.sha256(text(drive).encode()).hexdigest(),
         **provenance,
         "instant": {"name": drive.instant.name, "unit": "rad", "meaning": drive.instant.meaning},
         "unknowns": [_name(u.symbol) for u in drive.unknowns],
@@ -271,7 +272,7 @@ def _terms(drive, rule):
 
 
 def _system(drive, system):
-    """A design system: why it may have no solution, its number of unknowns, which parameters it fills in, and whether
+    """A design system: why it may have no solution, its unknowns by name, which parameters it fills in, and whether
     that is only where the search for contact starts.
     """
     symbols = [p.symbol for p in drive.parameters]
@@ -279,7 +280,7 @@ def _system(drive, system):
         "name": system.name,
         "message": system.message,
         "keys": list(system.keys),
-        "unknowns": len(system.unknowns),
+        "unknowns": [unknown.symbol.name for unknown in system.unknowns],
         "fills": [symbols.index(target) for target in system.fills],
         "start": system.start,
     }

@@ -199,6 +199,19 @@ size_t mw_certify_boxes(const mw_model *m, const mw_wide *s, const mw_wide *phi,
     return unique;
 }
 
+int mw_prove(const mw_model *m, const mw_wide *s, mw_wide phi, const double *x, mw_proof *proof)
+{
+    mwc_problem p;
+    mwc_solution found;
+    memset(proof, 0, sizeof *proof);
+    if ((proof->reason = mwc_posed(m, s, &p)) != MW_REASON_NONE) return proof->reason;
+    if ((proof->reason = mwc_posed_at(m, phi, &p)) != MW_REASON_NONE) return proof->reason;
+    for (int i = 0; i < m->nx; i++) found.x[i] = mwc_wide_of(x[i]);
+    if ((proof->reason = mwc_enclose(&p, &found)) != MW_REASON_NONE) return proof->reason;
+    if (!within_domain(m, found.x, found.box)) return proof->reason = MW_REASON_OUTSIDE;
+    return mwc_shown(&p, &found, proof);
+}
+
 int mw_certify_box(const mw_model *m, const mw_wide *s, mw_wide phi, const double *x, const double *d, mw_certificate *c)
 {
     mw_certify_boxes(m, s, &phi, x, d, 1, c);

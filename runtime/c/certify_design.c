@@ -27,7 +27,8 @@ static void apply_rules(const mw_certified *t, mw_wide *p)
     }
 }
 
-static int system_solved(const mw_model *m, int k, mw_wide *p, double *q)
+/* proof: unless NULL, what shows its solution. */
+static int system_solved(const mw_model *m, int k, mw_wide *p, double *q, mw_proof *proof)
 {
     const mw_system *system = &m->systems[k];
     const mw_certified_system *t = &mwc_tables_of(m)->systems[k];
@@ -48,6 +49,7 @@ static int system_solved(const mw_model *m, int k, mw_wide *p, double *q)
     mwc_known(&equations, arguments, np + 1);
     for (int i = 0; i < n; i++) found.x[i] = mwc_wide_of(y[i]);
     if (mwc_enclose(&equations, &found) != MW_REASON_NONE) return 0;
+    if (proof && mwc_shown(&equations, &found, proof) != MW_REASON_NONE) return 0;
     for (int i = 0; i < n; i++) {
         arguments[np + 1 + i] = found.x[i];
         arguments[np + 1 + i].radius = found.within[i];
@@ -58,7 +60,7 @@ static int system_solved(const mw_model *m, int k, mw_wide *p, double *q)
     return 1;
 }
 
-int mw_enclose_design(const mw_model *m, mw_wide *p, double *q)
+int mw_prove_design(const mw_model *m, mw_wide *p, double *q, mw_proof *systems)
 {
     const mw_certified *t = mwc_tables_of(m);
     double open[MW_MAX_PARAMETERS];
@@ -69,12 +71,18 @@ int mw_enclose_design(const mw_model *m, mw_wide *p, double *q)
     }
     apply_rules(t, p);
     for (int k = 0; k < m->nsystems; k++) {
+        if (systems) memset(systems + k, 0, sizeof *systems);
         for (int i = 0; i < m->np; i++) open[i] = p[i].hi;
         if (m->systems[k].open(open) == 0) continue;
-        if (!system_solved(m, k, p, q)) return 1 + k;
+        if (!system_solved(m, k, p, q, systems ? systems + k : NULL)) return 1 + k;
         apply_rules(t, p);
     }
     return 0;
+}
+
+int mw_enclose_design(const mw_model *m, mw_wide *p, double *q)
+{
+    return mw_prove_design(m, p, q, NULL);
 }
 
 void mw_enclose_setup(const mw_model *m, const mw_wide *p, mw_wide *s)

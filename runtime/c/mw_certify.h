@@ -66,6 +66,20 @@ int mw_enclose_design(const mw_model *m, mw_wide *p, double *q);
 /* Design stage: p[np] of mw_enclose_design; s[mw_enclosed_slots]. */
 void mw_enclose_setup(const mw_model *m, const mw_wide *p, mw_wide *s);
 
+/* What another program can verify without trust in this one: about the doubles centre[n] the equations have exactly one zero
+ * within box[n], and it lies within within[n], by Krawczyk's test with the matrix preconditioner[n*n], row by row. n is 0, and
+ * reason a mw_reason, where that is not shown or not needed. */
+typedef struct mw_proof {
+    int n, reason;
+    double centre[8], box[8], within[8], preconditioner[64];
+} mw_proof;
+
+/* mw_enclose_design with the proofs of the design systems that it solves: systems[nsystems]. */
+int mw_prove_design(const mw_model *m, mw_wide *p, double *q, mw_proof *systems);
+
+/* The proof of the contact near x[nx] at input angle phi. Returns its reason. */
+int mw_prove(const mw_model *m, const mw_wide *s, mw_wide phi, const double *x, mw_proof *proof);
+
 /* Certify the contact that x[nx], a solution in floating point at input angle phi, stands for: existence and uniqueness in
  * the widest box that a few steps find. line: whether the flanks are known to touch along a line. Returns the outcome. */
 int mw_certify(const mw_model *m, const mw_wide *s, mw_wide phi, const double *x, int line, mw_certificate *c);

@@ -127,7 +127,7 @@ def _system_values(description, system):
     )
 
     p = casadi.MX.sym("p", p.numel())
-    y, legal = look(p, 0.0, np.zeros(system["unknowns"]))[0], True
+    y, legal = look(p, 0.0, np.zeros(len(system["unknowns"])))[0], True
     for path in np.linspace(0.0, 1.0, PATH_STEPS + 1):
         y = solver(x0=y, p=casadi.vertcat(p, path))["x"]
         legal = casadi.logic_and(legal, look(p, path, y)[2])

@@ -5,7 +5,9 @@ An analysis is imported when it is first asked for: a command does not wait for 
 
 import math
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
+from numbers import Rational
 
 import numpy as np
 
@@ -207,6 +209,21 @@ class Drive:
         angles = analysis.checked_angles(angles)
         result = self.tca(angles) if result is None else analysis.checked_result(self, result, angles)
         return certify_contacts(self, result, degrees)
+
+    def proof(self, degrees):
+        """A proof of the contact at one pinion angle that other programs verify, as plain data: see
+        :func:`~meshwright.contact.proof.proof`. ``degrees``: a whole number, a fraction, or a decimal as text.
+        """
+        from meshwright.contact.proof import proof
+
+        if isinstance(degrees, float) or not isinstance(degrees, Rational | str):
+            remedy = 'give a whole number, a fraction or a text such as "1.5"'
+            raise UsageError(f"degrees = {degrees!r}: not exact; {remedy}")
+        try:
+            angle = Fraction(degrees)
+        except ValueError as error:
+            raise UsageError(f'degrees = {degrees!r}: no number; give a text such as "1.5"') from error
+        return proof(self, angle, self.tca([np.radians(float(angle))]).solutions[0])
 
     def refined(self, result, certificates=None):
         """A TCA with transmission errors to the last digit, from the proofs of its contacts where these are shown; see

@@ -247,6 +247,7 @@ def test_teeth_past_the_tips_do_not_touch_however_far_off_their_path_is(vertical
     assert set(drive.tca(np.radians([-1000.0, -900.0])).status) == {word}
 
 
+@pytest.mark.validate
 def test_a_contact_ratio_of_flanks_that_cut_into_each_other_says_so(capsys):
     """At 60 degrees this worm's contact is one of the equations alone; as it is published, bodies can make it."""
     command = ["ratio", "plain-zk", "--json", "-", "--set"]

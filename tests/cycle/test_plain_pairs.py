@@ -235,7 +235,7 @@ def pair_error_at(pair, angle, point):
 
 
 #: Pairs of the quick test, and of the whole.
-QUICK = 6
+QUICK = 3
 ALL = 300
 
 

@@ -14,6 +14,10 @@
 
 enum { MWC_REFINING_STEPS = 3, MWC_NARROWING_STEPS = 8 };
 
+/* The box of a proof that leaves the program, as a share of the box found, and how many times as wide other arithmetic may
+ * find slopes over a box; nothing is said to be nearer than the least share of its natural size, 2^-150. */
+static const double MWC_SHOWN_BOX = 0.25, MWC_SHOWN_WIDER = 16.0, MWC_SHOWN_LEAST = 7.006492321624085e-46;
+
 static inline const mw_certified *mwc_tables_of(const mw_model *m)
 {
     return mwi_usable(m) && m->kernels ? m->kernels->certified() : NULL;
@@ -120,6 +124,38 @@ static inline int mwc_enclose(mwc_problem *p, mwc_solution *s)
         }
     }
     return MW_REASON_WIDE;
+}
+
+/* What shows the same again about the nearest doubles, with room for other roundings. Returns a reason. */
+static inline int mwc_shown(mwc_problem *p, const mwc_solution *s, mw_proof *proof)
+{
+    const int n = p->n;
+    mw_wide x[MW_MAX_UNKNOWNS];
+    mw_ball J[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], R[MW_MAX_UNKNOWNS], z[MW_MAX_UNKNOWNS];
+    double M[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], K[MW_MAX_UNKNOWNS];
+    memset(proof, 0, sizeof *proof);
+    for (int i = 0; i < n; i++) {
+        x[i] = mwc_wide_of(proof->centre[i] = s->x[i].hi);
+        proof->box[i] = s->box[i] * MWC_SHOWN_BOX;
+    }
+    mwc_linearised(p, x, NULL, NULL, J);
+    if (!mwc_inverse(n, J, proof->preconditioner)) return proof->reason = MW_REASON_FOLD;
+    mwc_residual_at(p, x, R);
+    mwc_shift(n, proof->preconditioner, R, z);
+    mwc_linearised(p, x, proof->box, NULL, J);
+    mwc_defect(n, proof->preconditioner, J, M);
+    mwc_image(n, z, M, proof->box, K);
+    for (int i = 0; i < n; i++)
+        if (!(2.0 * K[i] < proof->box[i])) return proof->reason = MW_REASON_WIDE;
+    mwc_narrow(n, z, M, K, proof->within);
+    mwc_image(n, z, M, proof->within, K);
+    for (int i = 0; i < n; i++) {
+        const double shift = mwc_abs(z[i].mid) + z[i].radius;
+        proof->within[i] = 2.0 * shift + MWC_SHOWN_WIDER * (K[i] - shift) + MWC_SHOWN_LEAST * p->sizes[i];
+        if (!(proof->within[i] < proof->box[i])) return proof->reason = MW_REASON_WIDE;
+    }
+    proof->n = n;
+    return MW_REASON_NONE;
 }
 
 static inline void mwc_known(mwc_problem *p, const mw_wide *from, int count)

@@ -6,6 +6,7 @@ a corner, each of which is a result. Exit status 1 if the flanks do not touch at
 
 import math
 import sys
+from pathlib import Path
 
 import numpy as np
 
@@ -51,6 +52,11 @@ def add_arguments(parser):
         help="prove each contact: that it exists, is the only one nearby, how far its numbers can be off, and that "
         "nothing else touches first",
     )  # fmt: skip
+    parser.add_argument(
+        "--proof", metavar="FILE",
+        help="with --certify and --phi-deg: write what generated/audit/check_contact.py verifies from the description "
+        "alone; of several angles, files numbered from FILE's name",
+    )  # fmt: skip
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON (schema meshwright.tca/1)")
     parser.add_argument("--csv", metavar="FILE|-", help="write as CSV")
 
@@ -63,6 +69,8 @@ def run(options):
         )
     if options.contour is not None and options.contour > MOST_DIRECTIONS:
         raise UsageError(f"--contour {options.contour}: {MOST_DIRECTIONS} directions at most; choose fewer")
+    if options.proof is not None and not (options.certify and options.phi_deg):
+        raise UsageError(f"--proof {options.proof}: needs --certify and --phi-deg; for example --phi-deg 0 --certify")
     result = drive.tca(common.angles_of(options, drive))
     certificates = _certificates(options, drive, result)
     if drive.backend == "c":
@@ -89,6 +97,7 @@ def run(options):
         others = certificates_of(drive, result)
         for point, certificate, found, other in zip(points, certificates.to_plain(), firsts, others, strict=True):
             point["certificate"] = certificate | {"first_contact": found} | other
+    proved = options.proof is None or _write_proofs(options, drive, result)
     if options.json:
         document = {"schema": "meshwright.tca/1", "drive": drive.design.family, "design": drive.design.as_solved()}
         write_json(options.json, document | {"points": points})
@@ -97,7 +106,7 @@ def run(options):
     if not options.json and not options.csv:
         said = f"{_not_aligned(drive, points)}{_enclosed(points)}{certificates.said()}"
         write_text("-", f"{_table(drive, points)}{said}\n")
-    return 0 if result.complete else 1
+    return 0 if result.complete and proved else 1
 
 
 def _certificates(options, drive, result):
@@ -105,6 +114,24 @@ def _certificates(options, drive, result):
     from meshwright.contact.certificate import degrees_of
 
     return drive.certify(result.angles, result, options.phi_deg and degrees_of(options.phi_deg))
+
+
+def _write_proofs(options, drive, result):
+    """A file of each angle; whether every contact has one. One that has no proof is said on standard error."""
+    from meshwright.contact.certificate import degrees_of
+    from meshwright.contact.proof import proof
+
+    place = Path(options.proof)
+    exact = degrees_of(options.phi_deg)
+    written = 0
+    for k, degrees in enumerate(exact):
+        numbered = place.with_stem(f"{place.stem}-{k + 1}") if len(exact) > 1 else place
+        try:
+            write_json(str(numbered), proof(drive, degrees, result.solutions[k]))
+            written += 1
+        except UsageError as error:
+            print(error, file=sys.stderr)
+    return written == len(exact)
 
 
 def _say_unresolved(first):

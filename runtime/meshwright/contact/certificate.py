@@ -42,12 +42,15 @@ class EnclosedDesign:
     failed: str | None
 
     @classmethod
-    def of(cls, design, m):
-        """The design, completed by rules and design systems and set up, all in double-double with error bounds."""
+    def of(cls, design, m, systems=ffi.NULL):
+        """The design, completed by rules and design systems and set up, all in double-double with error bounds.
+
+        ``systems``: ``mw_proof[]``, filled in with the proofs of the design systems.
+        """
         numbers = _completed(design.description, _given(design)).values()
         p = exact.wides([None if number is None else (number, number) for number in numbers])
         parameters, slots = pointer(p, "mw_wide[]"), library().mw_enclosed_slots(m)
-        failed = library().mw_enclose_design(m, parameters, pointer(np.empty(m.np + 1)))
+        failed = library().mw_prove_design(m, parameters, pointer(np.empty(m.np + 1)), systems)
         state = np.full(slots, np.nan, dtype=record("mw_wide"))
         if not failed:
             library().mw_enclose_setup(m, parameters, pointer(state, "mw_wide[]"))
