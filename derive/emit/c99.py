@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from derive.emit import approximation, embedded
 from derive.emit.render import render
 from derive.language.drive import PATH
+from derive.language.symbols import Table
 from derive.passes.arrange import Routines
 from derive.passes.plan import Schedule
 from derive.program.names import Names
@@ -224,6 +225,7 @@ def header(plan: Schedule, routines: Routines, description: dict, runtime):
         drive=drive,
         X=prefix,
         description=description,
+        other_flank=_other_flank(drive),
         tables=embedded.tables(runtime),
         solver=embedded.solver(runtime),
         indices=list(_indices(description)),
@@ -254,6 +256,12 @@ def header(plan: Schedule, routines: Routines, description: dict, runtime):
         approximation=approximation,
         estrin=estrin,
     )
+
+
+def _other_flank(drive):
+    """Index of the parameter whose sign tells two flanks of one design apart; −1 where each has a design of its own."""
+    signs = [k for k, p in enumerate(drive.parameters) if p.table == Table.FLANK]
+    return -1 if drive.flanks_apart or not signs else signs[0]
 
 
 def _indices(description):

@@ -9,7 +9,7 @@ from functools import cache
 _INCLUDE = re.compile(r'^#include "(.+)"\n', re.MULTILINE)
 _COMMENT = re.compile(r"[ \t]*/\*.*?\*/", re.DOTALL)
 #: Headers of the solver that need all others.
-ROOTS = ("complete.h", "follow.h")
+ROOTS = ("complete.h", "cycle.h")
 _EMPTY = re.compile(r"\n(?:[ \t]*\n)+")
 
 

@@ -83,7 +83,7 @@ LIVE_SOURCES = ("exact.h",)
 #: What programs include; generated headers repeat the parts of the solver.
 SOLVER = (
     "basics", "steps", "linear", "newton", "complete", "contact", "touch", "refine", "start", "arclength", "branch",
-    "search", "choice", "reduce", "follow",
+    "search", "choice", "reduce", "follow", "cycle",
 )  # fmt: skip
 PUBLIC_HEADERS = (
     "meshwright.h", "mw_model.h", "mw_status.h", "mw_enclosures.h", "mw_certify.h",
