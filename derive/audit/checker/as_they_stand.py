@@ -35,6 +35,10 @@ SOLVED = {
     return mwi_cycle_setup(&X_model, p, coast || X_OTHER_FLANK < 0 ? coast : other, c);""",
     "cycle": """
     return mwi_cycle(&X_model, c, phi, out);""",
+    "self_test": """
+    double s[X_NS], work[X_NP], x[X_NX];
+    const int unsound = mwi_unsound();
+    return unsound ? unsound : mwi_finds(&X_model, X_sample, X_sample_angle, X_sample_contact, s, work, x);""",
     "geometry": """
     const int kind = mwi_contact_at(&X_model, s, x, o, contact), touch = mwi_touch(&X_model, x, o);
     return touch < 0 ? touch : kind;""",
