@@ -31,6 +31,32 @@
 #include <math.h>
 #include <stddef.h>
 
+/* The arithmetic that the results rest on: IEEE doubles, every operation rounded by itself. Each generated header repeats this
+ * block, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
+#ifndef MW_ARITHMETIC
+#define MW_ARITHMETIC
+
+#include <float.h>
+
+/* Options that change results are refused where a macro shows them; X_self_test finds the others. Who defines
+ * MW_ANY_ARITHMETIC takes what comes. */
+#ifndef MW_ANY_ARITHMETIC
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST)
+#error "meshwright: fast mathematics changes results; compile without -ffast-math, -Ofast or /fp:fast, or define MW_ANY_ARITHMETIC"
+#endif
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0
+#error "meshwright: what is not a number has to be told; compile without -ffinite-math-only, or define MW_ANY_ARITHMETIC"
+#endif
+#if defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
+#error "meshwright: sums and quotients stand as they are; compile without -fassociative-math and -freciprocal-math, or define MW_ANY_ARITHMETIC"
+#endif
+#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
+#error "meshwright: doubles must be rounded at once; compile with -msse2 -mfpmath=sse, or define MW_ANY_ARITHMETIC"
+#endif
+#endif
+
+#endif
+
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
@@ -18757,6 +18783,32 @@ static inline int mwi_cycle(const mw_model *m, double *c, double phi, mw_cycle *
 }
 #endif
 
+#ifndef MWI_SELF_TEST_H
+#define MWI_SELF_TEST_H
+enum { MWI_SOUND, MWI_CONTRACTS, MWI_EXCEEDS, MWI_REORDERS, MWI_INVERTS, MWI_FLUSHES, MWI_NO_NAN, MWI_WRONG_ROOT, MWI_WRONG_CONTACT };
+static inline int mwi_unsound(void)
+{
+    volatile double of_one = 1.0 + 1.0 / 1073741824.0, of_square = 1.0 + 1.0 / 536870912.0, one = 1.0, large = 9007199254740992.0;
+    volatile double largest = DBL_MAX, ten = 10.0, seven = 7.0, three = 3.0, least = DBL_MIN, two = 2.0, nothing = NAN;
+    const double a = of_one, b = of_square, u = one, l = large, m = largest, t = ten, s = seven, d = three, e = least, w = two;
+    const double unknown = nothing, part = e / t;
+    volatile double rest = a * a - b;
+    if (rest != 0.0) return MWI_CONTRACTS;
+    if (m * t / t < HUGE_VAL) return MWI_EXCEEDS;
+    if ((l + u) - l != 0.0 || (u + l) + u != l) return MWI_REORDERS;
+    if (s / d != 2.3333333333333335 || t / d != 3.3333333333333335 || w / d != 0.6666666666666666) return MWI_INVERTS;
+    if (!(part > 0.0) || !(part * t > 0.5 * e)) return MWI_FLUSHES;
+    if (unknown == unknown || unknown < u || unknown >= u) return MWI_NO_NAN;
+    if (sqrt(w) != 1.4142135623730951 || sqrt(d) != 1.7320508075688772) return MWI_WRONG_ROOT;
+    return MWI_SOUND;
+}
+static inline int mwi_finds(const mw_model *m, const double *p, double phi, const double *x0, double *s, double *work, double *x)
+{
+    mw_info info;
+    return mwi_solve(m, p, phi, s, work, x, &info) >= 0 && mwi_near(m, s, x, x0, MWI_NO_FURTHER) ? MWI_SOUND : MWI_WRONG_CONTACT;
+}
+#endif
+
 /* Complete a design: p[bevel_face_hobbed_NP] with open numbers NaN, in mm and rad; info may be NULL. Rules and defaults, then what the
  * design leaves to equations of its own. Returns 0, or 1 + k where bevel_face_hobbed_model.systems[k] has no solution. Where the design
  * lacks keys nothing is solved: bevel_face_hobbed_setup then names them, and info->guard is what it returns. */
@@ -18822,6 +18874,21 @@ static inline int bevel_face_hobbed_cycle_setup(const double *p, const double *c
 static inline int bevel_face_hobbed_cycle(double *c, double phi, mw_cycle *out)
 {
     return mwi_cycle(&bevel_face_hobbed_model, c, phi, out);
+}
+
+/* A design, an input angle, and its contact there to the last digit. */
+static const double bevel_face_hobbed_sample[] = { 1.0, 15.0, 44.0, 1.5707963267948966, 0.01, 13.0, 76.8533, 0.3490658503988659, 0.002, 3.9375, 0.5, 0.23496145989123263, 88.7026, 0.9614826863019043, 0.00034906585039886593, 0.3490658503988659, 0.32855299570017654, 0.0, -3.7, 0.0, 3.0991, 0.01, 0.0, 0.0, 0.0, 0.0, 0.0, 0.32855299570017654, 0.0, 0.32855299570017654, 9.2973, 92.9731, 27.0, 77.5467, 0.3490658503988659, 1e-05, 3.9375, 0.5, 0.2412498811861682, 88.0169, 0.9395212083240596, 0.0, 0.0, 1.24224333109472, 0.0, -3.7, 0.0, 1.05651, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.24224333109472, 0.0, 1.24224333109472, 3.1695, 92.9731, 27.0, 3.7398292187863897, -2.141247978338247, 0.006141414283952224, 0.6391668044306409, 4.15848610218736, -2.506034505767926, 0.0061892372997204535, 2.1910324362118363, 60.57457492117292, -44.49822764924552, 25.819306384046303, 0.049149292469494524, -1.1058906837321967, -0.16615258086982704, -14.672929312106493, 21.24876826863302, 75.16112464228932, 0.0, 0.0, 0.0, 0.0, 0.00635 };
+static const double bevel_face_hobbed_sample_angle = 2.2;
+static const double bevel_face_hobbed_sample_contact[] = { 4.139917638034944, -2.510995882836679, 0.007450184727607449, 3.7588070373116986, -2.1463261345437323, 0.007366862667010487, -0.10777662376948183 };
+
+/* Whether this program computes as it must: 0, or what is wrong: 1 products fused into sums, 2 numbers wider than doubles, 3 sums
+ * in another order, 4 quotients by reciprocals, 5 small numbers flushed to zero, 6 not-a-number not told, 7 roots, 8 a contact
+ * that is not found. Freestanding, a sqrt of your own must not be compiled into a call of itself. */
+static inline int bevel_face_hobbed_self_test(void)
+{
+    double s[bevel_face_hobbed_NS], work[bevel_face_hobbed_NP], x[bevel_face_hobbed_NX];
+    const int unsound = mwi_unsound();
+    return unsound ? unsound : mwi_finds(&bevel_face_hobbed_model, bevel_face_hobbed_sample, bevel_face_hobbed_sample_angle, bevel_face_hobbed_sample_contact, s, work, x);
 }
 
 /* Contact geometry at a solution x of bevel_face_hobbed_solve or bevel_face_hobbed_follow, s as it left it; o[bevel_face_hobbed_NO] as of bevel_face_hobbed_observe. bevel_face_hobbed_flags has the

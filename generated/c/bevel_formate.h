@@ -36,6 +36,32 @@
 #include <math.h>
 #include <stddef.h>
 
+/* The arithmetic that the results rest on: IEEE doubles, every operation rounded by itself. Each generated header repeats this
+ * block, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
+#ifndef MW_ARITHMETIC
+#define MW_ARITHMETIC
+
+#include <float.h>
+
+/* Options that change results are refused where a macro shows them; X_self_test finds the others. Who defines
+ * MW_ANY_ARITHMETIC takes what comes. */
+#ifndef MW_ANY_ARITHMETIC
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST)
+#error "meshwright: fast mathematics changes results; compile without -ffast-math, -Ofast or /fp:fast, or define MW_ANY_ARITHMETIC"
+#endif
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0
+#error "meshwright: what is not a number has to be told; compile without -ffinite-math-only, or define MW_ANY_ARITHMETIC"
+#endif
+#if defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
+#error "meshwright: sums and quotients stand as they are; compile without -fassociative-math and -freciprocal-math, or define MW_ANY_ARITHMETIC"
+#endif
+#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
+#error "meshwright: doubles must be rounded at once; compile with -msse2 -mfpmath=sse, or define MW_ANY_ARITHMETIC"
+#endif
+#endif
+
+#endif
+
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
@@ -9979,6 +10005,32 @@ static inline int mwi_cycle(const mw_model *m, double *c, double phi, mw_cycle *
 }
 #endif
 
+#ifndef MWI_SELF_TEST_H
+#define MWI_SELF_TEST_H
+enum { MWI_SOUND, MWI_CONTRACTS, MWI_EXCEEDS, MWI_REORDERS, MWI_INVERTS, MWI_FLUSHES, MWI_NO_NAN, MWI_WRONG_ROOT, MWI_WRONG_CONTACT };
+static inline int mwi_unsound(void)
+{
+    volatile double of_one = 1.0 + 1.0 / 1073741824.0, of_square = 1.0 + 1.0 / 536870912.0, one = 1.0, large = 9007199254740992.0;
+    volatile double largest = DBL_MAX, ten = 10.0, seven = 7.0, three = 3.0, least = DBL_MIN, two = 2.0, nothing = NAN;
+    const double a = of_one, b = of_square, u = one, l = large, m = largest, t = ten, s = seven, d = three, e = least, w = two;
+    const double unknown = nothing, part = e / t;
+    volatile double rest = a * a - b;
+    if (rest != 0.0) return MWI_CONTRACTS;
+    if (m * t / t < HUGE_VAL) return MWI_EXCEEDS;
+    if ((l + u) - l != 0.0 || (u + l) + u != l) return MWI_REORDERS;
+    if (s / d != 2.3333333333333335 || t / d != 3.3333333333333335 || w / d != 0.6666666666666666) return MWI_INVERTS;
+    if (!(part > 0.0) || !(part * t > 0.5 * e)) return MWI_FLUSHES;
+    if (unknown == unknown || unknown < u || unknown >= u) return MWI_NO_NAN;
+    if (sqrt(w) != 1.4142135623730951 || sqrt(d) != 1.7320508075688772) return MWI_WRONG_ROOT;
+    return MWI_SOUND;
+}
+static inline int mwi_finds(const mw_model *m, const double *p, double phi, const double *x0, double *s, double *work, double *x)
+{
+    mw_info info;
+    return mwi_solve(m, p, phi, s, work, x, &info) >= 0 && mwi_near(m, s, x, x0, MWI_NO_FURTHER) ? MWI_SOUND : MWI_WRONG_CONTACT;
+}
+#endif
+
 /* Complete a design: p[bevel_formate_NP] with open numbers NaN, in mm and rad; info may be NULL. Rules and defaults, then what the
  * design leaves to equations of its own. Returns 0, or 1 + k where bevel_formate_model.systems[k] has no solution. Where the design
  * lacks keys nothing is solved: bevel_formate_setup then names them, and info->guard is what it returns. */
@@ -10044,6 +10096,21 @@ static inline int bevel_formate_cycle_setup(const double *p, const double *coast
 static inline int bevel_formate_cycle(double *c, double phi, mw_cycle *out)
 {
     return mwi_cycle(&bevel_formate_model, c, phi, out);
+}
+
+/* A design, an input angle, and its contact there to the last digit. */
+static const double bevel_formate_sample[] = { 1.0, 11.0, 41.0, 1.5707963267948966, 30.0, 76.7441, 0.3490658503988659, 0.001, 4.0, 0.5, 87.3328, 0.8623340221546103, 0.3141592653589793, -0.8623340221546103, -1.7453292519943296e-05, 30.0, 14.2576, 0.0, 3.72727, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.3036349299694535, 7.833, 0.3036349299694535, 18.536, 119.09, 29.0, 77.6559, 0.3490658503988659, 0.0, 0.0, 0.5, 87.8478, 0.8265582631472306, 0.0, 0.0, 1.2566370614359172, 0.0, -4.0, 0.0, 1.2566370614359172, 0.0, 1.2566370614359172, 3.3647, 113.3889, 27.0, 4.006093564440415, -1.8395530668583127, 0.2604211359075537, -1.0810021684819457, 0.060462489213078195, 0.9198610992768016, 94.927165899388, -0.10119345330104905, 31.09132887840031, 0.578745745327531, -0.7972548244214211, -0.17157536886759026, 14.340361788186215, 28.160367329306407, 91.75243232311608, 0.0, 0.0, 0.0, 0.0, 0.00635 };
+static const double bevel_formate_sample_angle = 0.9;
+static const double bevel_formate_sample_contact[] = { 0.2415695091314803, -1.0070257792517892, 4.817007360819924, -1.833492403250145, -8.535461720724976e-06 };
+
+/* Whether this program computes as it must: 0, or what is wrong: 1 products fused into sums, 2 numbers wider than doubles, 3 sums
+ * in another order, 4 quotients by reciprocals, 5 small numbers flushed to zero, 6 not-a-number not told, 7 roots, 8 a contact
+ * that is not found. Freestanding, a sqrt of your own must not be compiled into a call of itself. */
+static inline int bevel_formate_self_test(void)
+{
+    double s[bevel_formate_NS], work[bevel_formate_NP], x[bevel_formate_NX];
+    const int unsound = mwi_unsound();
+    return unsound ? unsound : mwi_finds(&bevel_formate_model, bevel_formate_sample, bevel_formate_sample_angle, bevel_formate_sample_contact, s, work, x);
 }
 
 /* Contact geometry at a solution x of bevel_formate_solve or bevel_formate_follow, s as it left it; o[bevel_formate_NO] as of bevel_formate_observe. bevel_formate_flags has the

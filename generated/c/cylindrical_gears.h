@@ -39,6 +39,32 @@
 #include <math.h>
 #include <stddef.h>
 
+/* The arithmetic that the results rest on: IEEE doubles, every operation rounded by itself. Each generated header repeats this
+ * block, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
+#ifndef MW_ARITHMETIC
+#define MW_ARITHMETIC
+
+#include <float.h>
+
+/* Options that change results are refused where a macro shows them; X_self_test finds the others. Who defines
+ * MW_ANY_ARITHMETIC takes what comes. */
+#ifndef MW_ANY_ARITHMETIC
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST)
+#error "meshwright: fast mathematics changes results; compile without -ffast-math, -Ofast or /fp:fast, or define MW_ANY_ARITHMETIC"
+#endif
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0
+#error "meshwright: what is not a number has to be told; compile without -ffinite-math-only, or define MW_ANY_ARITHMETIC"
+#endif
+#if defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
+#error "meshwright: sums and quotients stand as they are; compile without -fassociative-math and -freciprocal-math, or define MW_ANY_ARITHMETIC"
+#endif
+#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
+#error "meshwright: doubles must be rounded at once; compile with -msse2 -mfpmath=sse, or define MW_ANY_ARITHMETIC"
+#endif
+#endif
+
+#endif
+
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
@@ -9255,6 +9281,32 @@ static inline int mwi_cycle(const mw_model *m, double *c, double phi, mw_cycle *
 }
 #endif
 
+#ifndef MWI_SELF_TEST_H
+#define MWI_SELF_TEST_H
+enum { MWI_SOUND, MWI_CONTRACTS, MWI_EXCEEDS, MWI_REORDERS, MWI_INVERTS, MWI_FLUSHES, MWI_NO_NAN, MWI_WRONG_ROOT, MWI_WRONG_CONTACT };
+static inline int mwi_unsound(void)
+{
+    volatile double of_one = 1.0 + 1.0 / 1073741824.0, of_square = 1.0 + 1.0 / 536870912.0, one = 1.0, large = 9007199254740992.0;
+    volatile double largest = DBL_MAX, ten = 10.0, seven = 7.0, three = 3.0, least = DBL_MIN, two = 2.0, nothing = NAN;
+    const double a = of_one, b = of_square, u = one, l = large, m = largest, t = ten, s = seven, d = three, e = least, w = two;
+    const double unknown = nothing, part = e / t;
+    volatile double rest = a * a - b;
+    if (rest != 0.0) return MWI_CONTRACTS;
+    if (m * t / t < HUGE_VAL) return MWI_EXCEEDS;
+    if ((l + u) - l != 0.0 || (u + l) + u != l) return MWI_REORDERS;
+    if (s / d != 2.3333333333333335 || t / d != 3.3333333333333335 || w / d != 0.6666666666666666) return MWI_INVERTS;
+    if (!(part > 0.0) || !(part * t > 0.5 * e)) return MWI_FLUSHES;
+    if (unknown == unknown || unknown < u || unknown >= u) return MWI_NO_NAN;
+    if (sqrt(w) != 1.4142135623730951 || sqrt(d) != 1.7320508075688772) return MWI_WRONG_ROOT;
+    return MWI_SOUND;
+}
+static inline int mwi_finds(const mw_model *m, const double *p, double phi, const double *x0, double *s, double *work, double *x)
+{
+    mw_info info;
+    return mwi_solve(m, p, phi, s, work, x, &info) >= 0 && mwi_near(m, s, x, x0, MWI_NO_FURTHER) ? MWI_SOUND : MWI_WRONG_CONTACT;
+}
+#endif
+
 /* Complete a design: p[cylindrical_gears_NP] with open numbers NaN, in mm and rad; info may be NULL. Rules and defaults, then what the
  * design leaves to equations of its own. Returns 0, or 1 + k where cylindrical_gears_model.systems[k] has no solution. Where the design
  * lacks keys nothing is solved: cylindrical_gears_setup then names them, and info->guard is what it returns. */
@@ -9320,6 +9372,21 @@ static inline int cylindrical_gears_cycle_setup(const double *p, const double *c
 static inline int cylindrical_gears_cycle(double *c, double phi, mw_cycle *out)
 {
     return mwi_cycle(&cylindrical_gears_model, c, phi, out);
+}
+
+/* A design, an input angle, and its contact there to the last digit. */
+static const double cylindrical_gears_sample[] = { 1.0, 2.0, 0.3490658503988659, 0.5235987755982989, 41.44583420546263, 20.0, 2.5, 0.76, 2.0, 17.0, 0.3490658503988659, 0.0, 20.0, 0.01, 0.0, 0.0, 17.889727526173647, 0.0, 17.889727526173647, 0.02, 0.0, 0.0, 23.0, 0.17453292519943295, 0.0, 20.0, 0.0, 0.0, 0.0, 23.169984950268237, 0.0, 23.169984950268237, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 20.091022132090508, 25.354812073372134, 0.00632 };
+static const double cylindrical_gears_sample_angle = 0.03;
+static const double cylindrical_gears_sample_contact[] = { 0.166929180598958, -0.16430270994350785, -0.16575845649180312, 0.06867234822980783, -1.997693681159325e-05 };
+
+/* Whether this program computes as it must: 0, or what is wrong: 1 products fused into sums, 2 numbers wider than doubles, 3 sums
+ * in another order, 4 quotients by reciprocals, 5 small numbers flushed to zero, 6 not-a-number not told, 7 roots, 8 a contact
+ * that is not found. Freestanding, a sqrt of your own must not be compiled into a call of itself. */
+static inline int cylindrical_gears_self_test(void)
+{
+    double s[cylindrical_gears_NS], work[cylindrical_gears_NP], x[cylindrical_gears_NX];
+    const int unsound = mwi_unsound();
+    return unsound ? unsound : mwi_finds(&cylindrical_gears_model, cylindrical_gears_sample, cylindrical_gears_sample_angle, cylindrical_gears_sample_contact, s, work, x);
 }
 
 /* Contact geometry at a solution x of cylindrical_gears_solve or cylindrical_gears_follow, s as it left it; o[cylindrical_gears_NO] as of cylindrical_gears_observe. cylindrical_gears_flags has the

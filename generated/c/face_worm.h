@@ -43,6 +43,32 @@
 #include <math.h>
 #include <stddef.h>
 
+/* The arithmetic that the results rest on: IEEE doubles, every operation rounded by itself. Each generated header repeats this
+ * block, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
+#ifndef MW_ARITHMETIC
+#define MW_ARITHMETIC
+
+#include <float.h>
+
+/* Options that change results are refused where a macro shows them; X_self_test finds the others. Who defines
+ * MW_ANY_ARITHMETIC takes what comes. */
+#ifndef MW_ANY_ARITHMETIC
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST)
+#error "meshwright: fast mathematics changes results; compile without -ffast-math, -Ofast or /fp:fast, or define MW_ANY_ARITHMETIC"
+#endif
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0
+#error "meshwright: what is not a number has to be told; compile without -ffinite-math-only, or define MW_ANY_ARITHMETIC"
+#endif
+#if defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
+#error "meshwright: sums and quotients stand as they are; compile without -fassociative-math and -freciprocal-math, or define MW_ANY_ARITHMETIC"
+#endif
+#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
+#error "meshwright: doubles must be rounded at once; compile with -msse2 -mfpmath=sse, or define MW_ANY_ARITHMETIC"
+#endif
+#endif
+
+#endif
+
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
@@ -9725,6 +9751,32 @@ static inline int mwi_cycle(const mw_model *m, double *c, double phi, mw_cycle *
 }
 #endif
 
+#ifndef MWI_SELF_TEST_H
+#define MWI_SELF_TEST_H
+enum { MWI_SOUND, MWI_CONTRACTS, MWI_EXCEEDS, MWI_REORDERS, MWI_INVERTS, MWI_FLUSHES, MWI_NO_NAN, MWI_WRONG_ROOT, MWI_WRONG_CONTACT };
+static inline int mwi_unsound(void)
+{
+    volatile double of_one = 1.0 + 1.0 / 1073741824.0, of_square = 1.0 + 1.0 / 536870912.0, one = 1.0, large = 9007199254740992.0;
+    volatile double largest = DBL_MAX, ten = 10.0, seven = 7.0, three = 3.0, least = DBL_MIN, two = 2.0, nothing = NAN;
+    const double a = of_one, b = of_square, u = one, l = large, m = largest, t = ten, s = seven, d = three, e = least, w = two;
+    const double unknown = nothing, part = e / t;
+    volatile double rest = a * a - b;
+    if (rest != 0.0) return MWI_CONTRACTS;
+    if (m * t / t < HUGE_VAL) return MWI_EXCEEDS;
+    if ((l + u) - l != 0.0 || (u + l) + u != l) return MWI_REORDERS;
+    if (s / d != 2.3333333333333335 || t / d != 3.3333333333333335 || w / d != 0.6666666666666666) return MWI_INVERTS;
+    if (!(part > 0.0) || !(part * t > 0.5 * e)) return MWI_FLUSHES;
+    if (unknown == unknown || unknown < u || unknown >= u) return MWI_NO_NAN;
+    if (sqrt(w) != 1.4142135623730951 || sqrt(d) != 1.7320508075688772) return MWI_WRONG_ROOT;
+    return MWI_SOUND;
+}
+static inline int mwi_finds(const mw_model *m, const double *p, double phi, const double *x0, double *s, double *work, double *x)
+{
+    mw_info info;
+    return mwi_solve(m, p, phi, s, work, x, &info) >= 0 && mwi_near(m, s, x, x0, MWI_NO_FURTHER) ? MWI_SOUND : MWI_WRONG_CONTACT;
+}
+#endif
+
 /* Complete a design: p[face_worm_NP] with open numbers NaN, in mm and rad; info may be NULL. Rules and defaults, then what the
  * design leaves to equations of its own. Returns 0, or 1 + k where face_worm_model.systems[k] has no solution. Where the design
  * lacks keys nothing is solved: face_worm_setup then names them, and info->guard is what it returns. */
@@ -9790,6 +9842,21 @@ static inline int face_worm_cycle_setup(const double *p, const double *coast, do
 static inline int face_worm_cycle(double *c, double phi, mw_cycle *out)
 {
     return mwi_cycle(&face_worm_model, c, phi, out);
+}
+
+/* A design, an input angle, and its contact there to the last digit. */
+static const double face_worm_sample[] = { 1.0, 2.0, 60.0, 1.334, 35.0, 29.907, 11.48, 0.08726646259971647, 38.53, 52.5, 0.17453292519943295, 0.003, 0.01, 0.0, 23.059753486875447, 0.0, -0.367867699030428, 0.4, 1.6675, -0.20954633550146923, 0.0, 0.0, -8.721751789316417e-41, -9.999366061415358, 10.162103647292172, 7.952792188780291, -7.987541648817013, 27.18563454339858, 27.303885702822114, -4.567966300781671, 29.907, 33.80598712390059, -5.61443970950876, 30.303683118284205, 42.87116501177239, -6.470177404385345, 0.9557472324468396, -0.25444777796560075, -0.1476602721065325, 0.23707373520350308, 0.9633450825147198, -0.12554798314336624, 0.17419320235550576, 0.08498576517909344, 0.9810372816412524, 7.867704424012433, 39.67349015907056, -2.209430234927171, 0.0, 0.0, 0.0, 1.334, 0.00635 };
+static const double face_worm_sample_angle = 1.0;
+static const double face_worm_sample_contact[] = { -0.0033143577662085926, -0.02637570293445262, 0.9997087837489378, -0.0037166772353050283, -0.02642730154316718, -1.554852697670938e-05 };
+
+/* Whether this program computes as it must: 0, or what is wrong: 1 products fused into sums, 2 numbers wider than doubles, 3 sums
+ * in another order, 4 quotients by reciprocals, 5 small numbers flushed to zero, 6 not-a-number not told, 7 roots, 8 a contact
+ * that is not found. Freestanding, a sqrt of your own must not be compiled into a call of itself. */
+static inline int face_worm_self_test(void)
+{
+    double s[face_worm_NS], work[face_worm_NP], x[face_worm_NX];
+    const int unsound = mwi_unsound();
+    return unsound ? unsound : mwi_finds(&face_worm_model, face_worm_sample, face_worm_sample_angle, face_worm_sample_contact, s, work, x);
 }
 
 /* Contact geometry at a solution x of face_worm_solve or face_worm_follow, s as it left it; o[face_worm_NO] as of face_worm_observe. face_worm_flags has the

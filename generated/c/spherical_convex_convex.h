@@ -38,6 +38,32 @@
 #include <math.h>
 #include <stddef.h>
 
+/* The arithmetic that the results rest on: IEEE doubles, every operation rounded by itself. Each generated header repeats this
+ * block, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
+#ifndef MW_ARITHMETIC
+#define MW_ARITHMETIC
+
+#include <float.h>
+
+/* Options that change results are refused where a macro shows them; X_self_test finds the others. Who defines
+ * MW_ANY_ARITHMETIC takes what comes. */
+#ifndef MW_ANY_ARITHMETIC
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST)
+#error "meshwright: fast mathematics changes results; compile without -ffast-math, -Ofast or /fp:fast, or define MW_ANY_ARITHMETIC"
+#endif
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0
+#error "meshwright: what is not a number has to be told; compile without -ffinite-math-only, or define MW_ANY_ARITHMETIC"
+#endif
+#if defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
+#error "meshwright: sums and quotients stand as they are; compile without -fassociative-math and -freciprocal-math, or define MW_ANY_ARITHMETIC"
+#endif
+#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
+#error "meshwright: doubles must be rounded at once; compile with -msse2 -mfpmath=sse, or define MW_ANY_ARITHMETIC"
+#endif
+#endif
+
+#endif
+
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
@@ -6396,6 +6422,32 @@ static inline int mwi_cycle(const mw_model *m, double *c, double phi, mw_cycle *
 }
 #endif
 
+#ifndef MWI_SELF_TEST_H
+#define MWI_SELF_TEST_H
+enum { MWI_SOUND, MWI_CONTRACTS, MWI_EXCEEDS, MWI_REORDERS, MWI_INVERTS, MWI_FLUSHES, MWI_NO_NAN, MWI_WRONG_ROOT, MWI_WRONG_CONTACT };
+static inline int mwi_unsound(void)
+{
+    volatile double of_one = 1.0 + 1.0 / 1073741824.0, of_square = 1.0 + 1.0 / 536870912.0, one = 1.0, large = 9007199254740992.0;
+    volatile double largest = DBL_MAX, ten = 10.0, seven = 7.0, three = 3.0, least = DBL_MIN, two = 2.0, nothing = NAN;
+    const double a = of_one, b = of_square, u = one, l = large, m = largest, t = ten, s = seven, d = three, e = least, w = two;
+    const double unknown = nothing, part = e / t;
+    volatile double rest = a * a - b;
+    if (rest != 0.0) return MWI_CONTRACTS;
+    if (m * t / t < HUGE_VAL) return MWI_EXCEEDS;
+    if ((l + u) - l != 0.0 || (u + l) + u != l) return MWI_REORDERS;
+    if (s / d != 2.3333333333333335 || t / d != 3.3333333333333335 || w / d != 0.6666666666666666) return MWI_INVERTS;
+    if (!(part > 0.0) || !(part * t > 0.5 * e)) return MWI_FLUSHES;
+    if (unknown == unknown || unknown < u || unknown >= u) return MWI_NO_NAN;
+    if (sqrt(w) != 1.4142135623730951 || sqrt(d) != 1.7320508075688772) return MWI_WRONG_ROOT;
+    return MWI_SOUND;
+}
+static inline int mwi_finds(const mw_model *m, const double *p, double phi, const double *x0, double *s, double *work, double *x)
+{
+    mw_info info;
+    return mwi_solve(m, p, phi, s, work, x, &info) >= 0 && mwi_near(m, s, x, x0, MWI_NO_FURTHER) ? MWI_SOUND : MWI_WRONG_CONTACT;
+}
+#endif
+
 /* Complete a design: p[spherical_convex_convex_NP] with open numbers NaN, in mm and rad; info may be NULL. Rules and defaults, then what the
  * design leaves to equations of its own. Returns 0, or 1 + k where spherical_convex_convex_model.systems[k] has no solution. Where the design
  * lacks keys nothing is solved: spherical_convex_convex_setup then names them, and info->guard is what it returns. */
@@ -6461,6 +6513,21 @@ static inline int spherical_convex_convex_cycle_setup(const double *p, const dou
 static inline int spherical_convex_convex_cycle(double *c, double phi, mw_cycle *out)
 {
     return mwi_cycle(&spherical_convex_convex_model, c, phi, out);
+}
+
+/* A design, an input angle, and its contact there to the last digit. */
+static const double spherical_convex_convex_sample[] = { 1.0, 4.0, 0.3490658503988659, 15.0, 4.0, 3.141592653589793, 36.0, 72.0, 15.0, 4.0, 3.141592653589793, 1.52, 4.0, 72.0, 150.0, 15.0, 4.0, 3.141592653589793, 1.52, 4.0, 0.0, 0.0, 0.0, 0.00632, 1.0 };
+static const double spherical_convex_convex_sample_angle = 0.03;
+static const double spherical_convex_convex_sample_contact[] = { 4.995474599487093, 0.0, 3.5179475803202043, 0.0, -7.133660990348815e-42 };
+
+/* Whether this program computes as it must: 0, or what is wrong: 1 products fused into sums, 2 numbers wider than doubles, 3 sums
+ * in another order, 4 quotients by reciprocals, 5 small numbers flushed to zero, 6 not-a-number not told, 7 roots, 8 a contact
+ * that is not found. Freestanding, a sqrt of your own must not be compiled into a call of itself. */
+static inline int spherical_convex_convex_self_test(void)
+{
+    double s[spherical_convex_convex_NS], work[spherical_convex_convex_NP], x[spherical_convex_convex_NX];
+    const int unsound = mwi_unsound();
+    return unsound ? unsound : mwi_finds(&spherical_convex_convex_model, spherical_convex_convex_sample, spherical_convex_convex_sample_angle, spherical_convex_convex_sample_contact, s, work, x);
 }
 
 /* Contact geometry at a solution x of spherical_convex_convex_solve or spherical_convex_convex_follow, s as it left it; o[spherical_convex_convex_NO] as of spherical_convex_convex_observe. spherical_convex_convex_flags has the
