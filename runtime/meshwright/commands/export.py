@@ -1,4 +1,4 @@
-"""Write a design for other software: as a REXS 2 file, or its transmission error as a table.
+"""Write a design for other software: as a REXS 2 file, a table of its transmission error, or a package.
 
 --rexs: with a report of what was mapped, what was not, and what was assumed. A design that came from a REXS file is put
 back into it: what the design does not hold stays there as it was. --new writes a file of its own instead. --measured
@@ -7,6 +7,9 @@ adds measured deviations of a member (a file as of `grid`, filled in) as lists o
 --table: error and ratio of the drive over one pitch, all pairs together, both flanks, as polynomials with a proved
 bound (.c, .json, .npz) or as samples of them (.csv, .txt for Modelica). Exit status 1 where an edge may touch before
 the pair that leads, or no pair touches within its limits: the table leaves edges out.
+
+--crate, --npm: a crate of Rust with the drive's C, which needs a C compiler and no other crate; an ES module with
+WebAssembly for Node and browsers. Both solve the pair in mesh and the whole drive at any angle, with the native bits.
 """
 
 import sys
@@ -17,7 +20,7 @@ from meshwright.commands import options as common
 from meshwright.contact.results import ARCSEC
 from meshwright.design import design as designs
 from meshwright.drive import Drive
-from meshwright.export import table_files
+from meshwright.export import packages, table_files
 from meshwright.export.table import table
 from meshwright.rexs.measurements import with_points
 from meshwright.rexs.origin import origin_of
@@ -36,6 +39,8 @@ def add_arguments(parser):
     kind = parser.add_mutually_exclusive_group(required=True)
     kind.add_argument("--rexs", metavar="OUT|-", help="where to write the REXS file")
     kind.add_argument("--table", metavar="FILE", help="where to write the table: .c, .json, .csv, .npz or .txt")
+    kind.add_argument("--crate", metavar="DIR", help="new folder for a crate of Rust, which it names")
+    kind.add_argument("--npm", metavar="DIR", help="new folder for an npm package, which it names")
     parser.add_argument("--json", metavar="REPORT|-", help="write the report (schema meshwright.rexs/1)")
     parser.add_argument("--new", action="store_true", help="a new file, not that from which the design came")
     parser.add_argument("--measured", metavar="FILE.csv", help="measured deviations to add as lists of points")
@@ -43,28 +48,42 @@ def add_arguments(parser):
     parser.add_argument(
         "--tolerance-arcsec", type=common.positive, metavar="T", help="of the table's errors; default: 1e-6"
     )
-    parser.add_argument("--coast", metavar="DESIGN", help="the table's other flank, where that has a design of its own")
+    parser.add_argument("--coast", metavar="DESIGN", help="the other flank, where that has a design of its own")
     parser.add_argument(
         "--set", action="append", default=[], metavar="TABLE.KEY=VALUE", help="change a key of the design; repeatable"
     )
 
 
-#: Options that belong to one kind of file alone.
-OF_REXS, OF_TABLE = ("json", "new", "measured", "member"), ("tolerance_arcsec", "coast")
+#: Options that each kind of file has beside those of all.
+OPTIONS = {
+    "rexs": ("json", "new", "measured", "member"), "table": ("tolerance_arcsec", "coast"),
+    "crate": ("coast",), "npm": ("coast",),
+}  # fmt: skip
 
 
 def run(options):
-    kind, others = ("--rexs", OF_TABLE) if options.table is None else ("--table", OF_REXS)
-    for name in others:
+    kind = next(kind for kind in OPTIONS if getattr(options, kind) is not None)
+    for name in sorted({name for names in OPTIONS.values() for name in names} - {*OPTIONS[kind]}):
         if getattr(options, name):
-            raise UsageError(f"--{name.replace('_', '-')}: {kind} has no use for it; leave it out")
-    return _rexs(options) if options.table is None else _table(options)
-
-
-def _table(options):
+            raise UsageError(f"--{name.replace('_', '-')}: --{kind} has no use for it; leave it out")
+    if kind == "rexs":
+        return _rexs(options)
     changes = dict(common.setting(t) for t in options.set)
     drive = Drive.from_tables(designs.changed(designs.read(options.design), changes))
-    coast = None if options.coast is None else Drive.load(options.coast)
+    coast = drive.other_side if options.coast is None else Drive.load(options.coast)
+    return {"table": _table, "crate": _package, "npm": _package}[kind](options, drive, coast)
+
+
+def _package(options, drive, coast):
+    drive.cycle([0.0], coast)  # what is no other flank is refused
+    if options.crate is not None:
+        packages.crate(drive, coast, options.crate)
+    else:
+        packages.npm(drive, coast, options.npm)
+    return 0
+
+
+def _table(options, drive, coast):
     table_files.writer(options.table)
     found, asked = table(drive, (options.tolerance_arcsec or TOLERANCE) * ARCSEC, coast), options.tolerance_arcsec
     bound = found.bound / ARCSEC
