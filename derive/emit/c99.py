@@ -5,12 +5,14 @@ gives the same bits with every compiler that keeps IEEE arithmetic (no fast-math
 MW_FUSED it fuses the products that :mod:`derive.passes.fuse` chooses into sums, and needs ``fma`` too.
 """
 
+import math
 import re
 from dataclasses import dataclass
 
 from derive.emit import approximation, embedded
 from derive.emit.render import render
 from derive.language.drive import PATH
+from derive.language.symbols import Table
 from derive.passes.arrange import Routines
 from derive.passes.plan import Schedule
 from derive.program.names import Names
@@ -224,6 +226,8 @@ def header(plan: Schedule, routines: Routines, description: dict, runtime):
         drive=drive,
         X=prefix,
         description=description,
+        other_flank=_other_flank(drive),
+        sample=_sample(description["self_test"]),
         tables=embedded.tables(runtime),
         solver=embedded.solver(runtime),
         indices=list(_indices(description)),
@@ -254,6 +258,21 @@ def header(plan: Schedule, routines: Routines, description: dict, runtime):
         approximation=approximation,
         estrin=estrin,
     )
+
+
+def _other_flank(drive):
+    """Index of the parameter whose sign tells two flanks of one design apart; −1 where each has a design of its own."""
+    signs = [k for k, p in enumerate(drive.parameters) if p.table == Table.FLANK]
+    return -1 if drive.flanks_apart or not signs else signs[0]
+
+
+def _sample(test):
+    """The numbers of a self-test as C has them; NAN is an open parameter."""
+    def literal(text):
+        value = float.fromhex(text)
+        return number(value) if math.isfinite(value) else "NAN"
+
+    return {"p": [*map(literal, test["p"])], "phi": literal(test["phi"]), "x": [*map(literal, test["x"])]}
 
 
 def _indices(description):

@@ -9,14 +9,16 @@ from functools import cache
 _INCLUDE = re.compile(r'^#include "(.+)"\n', re.MULTILINE)
 _COMMENT = re.compile(r"[ \t]*/\*.*?\*/", re.DOTALL)
 #: Headers of the solver that need all others.
-ROOTS = ("complete.h", "follow.h")
+ROOTS = ("complete.h", "cycle.h", "self_test.h")
+#: Headers that each generated one repeats before its own text.
+TABLES = ("mw_arithmetic.h", "mw_model.h", "mw_status.h")
 _EMPTY = re.compile(r"\n(?:[ \t]*\n)+")
 
 
 @cache
 def tables(runtime):
-    """Model table and statuses, as their headers in the folder ``runtime`` have them."""
-    return "".join((runtime / name).read_text(encoding="utf-8") + "\n" for name in ("mw_model.h", "mw_status.h"))
+    """What the arithmetic must be, model table and statuses, as their headers in the folder ``runtime`` have them."""
+    return "".join((runtime / name).read_text(encoding="utf-8") + "\n" for name in TABLES)
 
 
 @cache

@@ -38,6 +38,32 @@
 #include <math.h>
 #include <stddef.h>
 
+/* The arithmetic that the results rest on: IEEE doubles, every operation rounded by itself. Each generated header repeats this
+ * block, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
+#ifndef MW_ARITHMETIC
+#define MW_ARITHMETIC
+
+#include <float.h>
+
+/* Options that change results are refused where a macro shows them; X_self_test finds the others. Who defines
+ * MW_ANY_ARITHMETIC takes what comes. */
+#ifndef MW_ANY_ARITHMETIC
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST)
+#error "meshwright: fast mathematics changes results; compile without -ffast-math, -Ofast or /fp:fast, or define MW_ANY_ARITHMETIC"
+#endif
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0
+#error "meshwright: what is not a number has to be told; compile without -ffinite-math-only, or define MW_ANY_ARITHMETIC"
+#endif
+#if defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
+#error "meshwright: sums and quotients stand as they are; compile without -fassociative-math and -freciprocal-math, or define MW_ANY_ARITHMETIC"
+#endif
+#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
+#error "meshwright: doubles must be rounded at once; compile with -msse2 -mfpmath=sse, or define MW_ANY_ARITHMETIC"
+#endif
+#endif
+
+#endif
+
 /* The model table: what runtime/c needs to know of a drive. Each generated header repeats this block under the
  * same guard, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_MODEL_ABI
@@ -205,6 +231,23 @@ typedef struct mw_contact {
     double lever_pinion, lever_wheel, ratio;
 } mw_contact;
 
+/* One flank of a drive at an input angle, of X_cycle: the pair that leads, counted from the reference of its own flank, the
+ * transmission error, rad, and d(wheel angle)/d(pinion angle). pairs: how many touch within the limits of both flanks; 0 along
+ * lines, of which nobody asks how far they reach. edge: pairs are looked at inside these limits only, and the edge of another
+ * may touch before them; error and ratio are not numbers, and status is no success, where no pair touches inside. */
+typedef struct mw_side {
+    int status, pairs, edge;
+    double pair, error, ratio;
+} mw_side;
+
+/* A drive at an input angle: the pair of X_reduce and its own angle; the flank that drives and the other one, in the angles of
+ * the first; how far the wheel can turn from one to the other, rad, negative where the drive jams. */
+typedef struct mw_cycle {
+    double pair, angle;
+    mw_side drive, coast;
+    double backlash;
+} mw_cycle;
+
 /* END INTERFACE */
 #endif
 
@@ -222,6 +265,7 @@ typedef struct mw_contact {
 #define spherical_concave_convex_NFLAGS 10
 #define spherical_concave_convex_NANCHOR 18
 #define spherical_concave_convex_NEAREST 3.814697265625e-06
+#define spherical_concave_convex_OTHER_FLANK 0
 #define spherical_concave_convex_ABI 7
 #define spherical_concave_convex_SPEC_HASH "bd7b1568bec9922855e59cebff245c85e9bbba365458cf19525d105321237181"
 
@@ -5981,20 +6025,22 @@ static inline int mwi_strode(mwi_pair *t, double phi, double *x, mw_info *info)
     }
     return 0;
 }
+static inline double mwi_ratio(const mw_model *m, double *s)
+{
+    double o[MW_MAX_OBSERVATION], x[MW_MAX_UNKNOWNS];
+    mwi_clear(x, m->nx);
+    m->set_phi(s, 0.0);
+    m->observe(s, x, o);
+    const double before = o[m->wheel_angle];
+    m->set_phi(s, 1.0);
+    m->observe(s, x, o);
+    return o[m->wheel_angle] - before;
+}
 static inline int mwi_faces_away(mwi_pair *t, double phi)
 {
-    const double reference = mwi_reference_angle(t), distance = mwi_abs(phi - reference);
-    double o[MW_MAX_OBSERVATION], x[MW_MAX_UNKNOWNS], turned;
+    const double distance = mwi_abs(phi - mwi_reference_angle(t));
     if (!(distance > MWI_FAR)) return 0;
-    if (t->reach == 0.0) {
-        mwi_clear(x, t->m->nx);
-        t->m->set_phi(t->s, reference);
-        t->m->observe(t->s, x, o);
-        turned = o[t->m->wheel_angle];
-        t->m->set_phi(t->s, reference + 1.0);
-        t->m->observe(t->s, x, o);
-        t->reach = MWI_HALF_A_TURN / mwi_abs(o[t->m->wheel_angle] - turned);
-    }
+    if (t->reach == 0.0) t->reach = MWI_HALF_A_TURN / mwi_abs(mwi_ratio(t->m, t->s));
     return distance > t->reach;
 }
 static inline int mwi_out_of_reach(mwi_pair *t, double phi)
@@ -6126,13 +6172,11 @@ static inline double mwi_own_angle(const mw_model *m, const double *p, double ph
 {
     return mwi_reduce(p[m->teeth], mwi_reference_of(m, p), phi, pair);
 }
-static inline int mwi_follow(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
+static inline int mwi_follow_at(const mw_model *m, const double *p, double angle, double *s, double *work, double *x, mw_info *info)
 {
-    double pair, *const kept = mwi_has_memory(m) ? s + m->memory : NULL;
-    const double angle = mwi_own_angle(m, p, phi, &pair);
-    const int known = angle == angle, warm = known && kept && mwi_go_on(m, s, kept, angle, x, info);
-    if (!known) *info = mwi_ended(MW_BAD_INPUT, 0);
-    else if (!kept) mwi_solve(m, p, angle, s, work, x, info);
+    double *const kept = mwi_has_memory(m) ? s + m->memory : NULL;
+    const int warm = kept && mwi_go_on(m, s, kept, angle, x, info);
+    if (!kept) mwi_solve(m, p, angle, s, work, x, info);
     else if (!warm) {
         mwi_pair t;
         t.m = m, t.p = p, t.s = s, t.work = work;
@@ -6140,9 +6184,276 @@ static inline int mwi_follow(const mw_model *m, const double *p, double phi, dou
         if (!info->guard) mwi_keep(&t, kept, mwi_solved(&t, angle, x, info) ? angle : NAN, x);
         m->set_phi(s, angle);
     }
-    info->pair = pair, info->angle = angle, info->cold = !warm;
+    info->cold = !warm;
     for (int i = 0; i < m->nx && info->status < 0; i++) x[i] = NAN;
     return info->status;
+}
+static inline int mwi_follow(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
+{
+    double pair;
+    const double angle = mwi_own_angle(m, p, phi, &pair);
+    *info = mwi_ended(MW_BAD_INPUT, 0);
+    if (angle == angle) mwi_follow_at(m, p, angle, s, work, x, info);
+    else for (int i = 0; i < m->nx; i++) x[i] = NAN;
+    info->pair = pair, info->angle = angle;
+    return info->status;
+}
+#endif
+
+#ifndef MWI_CYCLE_H
+#define MWI_CYCLE_H
+enum { MWI_PLACES = 16 };
+enum { MWI_LOOKS_A_PITCH = 16, MWI_LOOKS = 8 * MWI_LOOKS_A_PITCH, MWI_HALVINGS = 60 };
+static const double MWI_LOOKS_FOLLOWED = 1024.0;
+static const double MWI_END_TOLERANCE = 1.6e-13;
+enum { MWI_RATIO, MWI_PINION_OFFSET, MWI_WHEEL_OFFSET, MWI_SIDES };
+enum { MWI_END_ANGLE, MWI_END_ERROR, MWI_END_SLOPE, MWI_END };
+enum { MWI_KIND, MWI_SENSE, MWI_LOWER, MWI_UPPER = MWI_LOWER + MWI_END, MWI_STATE = MWI_UPPER + MWI_END };
+static const double MWI_ABSENT = 0.0, MWI_NO_WINDOW = 1.0, MWI_OF_LINES = 2.0, MWI_OF_POINTS = 3.0;
+static const double MWI_AHEAD = 2e-15, MWI_EDGE_AHEAD = 5e-14;
+enum { MWI_ANGLE_HALVINGS = 3, MWI_ARC_TERMS = 9 };
+static inline int mwi_side_size(const mw_model *m)
+{
+    return MWI_STATE + m->ns + MWI_PLACES * (1 + m->nx);
+}
+static inline const double *mwi_parameters_in(const mw_model *m, const double *side)
+{
+    return side + MWI_STATE + m->ns - m->np;
+}
+static inline double mwi_angle_of(double cosine, double sine)
+{
+    double tangent = sine / (1.0 + mwi_abs(cosine)), sum = 0.0;
+    for (int k = 0; k < MWI_ANGLE_HALVINGS; k++) tangent /= 1.0 + sqrt(1.0 + tangent * tangent);
+    for (int k = MWI_ARC_TERMS - 1; k >= 0; k--) sum = 1.0 / (2 * k + 1) - tangent * tangent * sum;
+    const double angle = (double)(2 << MWI_ANGLE_HALVINGS) * tangent * sum;
+    return cosine >= 0.0 ? angle : (sine < 0.0 ? -MWI_HALF_A_TURN : MWI_HALF_A_TURN) - angle;
+}
+static inline double mwi_floor(double a)
+{
+    const double nearest = (a + MWI_TO_INTEGER) - MWI_TO_INTEGER;
+    return nearest > a ? nearest - 1.0 : nearest;
+}
+static inline int mwi_pair_at(const mw_model *m, double *side, int place, double angle, double *x, mw_info *info)
+{
+    double p[MW_MAX_PARAMETERS], work[MW_MAX_PARAMETERS];
+    double *const s = side + MWI_STATE, *const kept = s + m->memory, *const last = s + m->ns + place * (1 + m->nx);
+    mwi_copy(p, mwi_parameters_in(m, side), m->np);
+    mwi_copy(x, last + 1, m->nx);
+    mwi_copy(kept + MWI_KEPT + m->nx, last + 1, m->nx);
+    kept[MWI_LAST_KEPT] = last[0];
+    mwi_follow_at(m, p, angle, s, work, x, info);
+    last[0] = kept[MWI_LAST_KEPT];
+    mwi_copy(last + 1, kept + MWI_KEPT + m->nx, m->nx);
+    return info->status;
+}
+enum { MWI_ON_FLANKS, MWI_BEYOND_LIMIT, MWI_NOWHERE };
+static inline int mwi_touches(const mw_model *m, double *side, double angle, double *x, mw_contact *c)
+{
+    double o[MW_MAX_OBSERVATION];
+    mw_info info;
+    int within = 1;
+    if (mwi_pair_at(m, side, 0, angle, x, &info) < 0) return MWI_NOWHERE;
+    mwi_contact_at(m, side + MWI_STATE, x, o, c);
+    if (mwi_worth_in(m, c) == MWI_IMPOSSIBLE) return MWI_NOWHERE;
+    for (const mw_body *b = m->bodies; b < m->bodies + 2; b++) {
+        if (o[b->regular] < 0.0) return MWI_NOWHERE;
+        for (int i = 0; i < b->margins; i++) within &= !(o[b->margin + i] < 0.0);
+    }
+    return within ? MWI_ON_FLANKS : MWI_BEYOND_LIMIT;
+}
+static inline void mwi_find_end(const mw_model *m, double *side, double inside, double step, double ratio, double *end)
+{
+    double x[MW_MAX_UNKNOWNS], outside = inside + step;
+    const double tolerance = MWI_END_TOLERANCE * mwi_abs(step);
+    const double reference = mwi_reference_of(m, mwi_parameters_in(m, side)), half = MWI_HALF_A_TURN / mwi_abs(ratio);
+    const double followed = MWI_LOOKS_FOLLOWED * mwi_abs(step), farthest = half < followed ? half : followed;
+    mw_contact c;
+    int beyond;
+    while ((beyond = mwi_touches(m, side, outside, x, &c)) == MWI_ON_FLANKS) {
+        inside = outside, outside += step;
+        if (mwi_abs(outside - reference) <= farthest) continue;
+        end[MWI_END_ANGLE] = step > 0.0 ? HUGE_VAL : -HUGE_VAL;
+        return;
+    }
+    for (int k = 0; k < MWI_HALVINGS && mwi_abs(outside - inside) > tolerance; k++) {
+        const double middle = 0.5 * (inside + outside);
+        const int there = mwi_touches(m, side, middle, x, &c);
+        if (there == MWI_ON_FLANKS) inside = middle;
+        else outside = middle, beyond = there;
+    }
+    mwi_touches(m, side, inside, x, &c);
+    end[MWI_END_ANGLE] = inside;
+    end[MWI_END_ERROR] = x[m->error];
+    end[MWI_END_SLOPE] = beyond == MWI_BEYOND_LIMIT ? c.ratio - ratio : NAN;
+}
+static inline double mwi_ahead_beyond(double sense, const double *end, double angle)
+{
+    const double slope = end[MWI_END_SLOPE];
+    return slope == slope ? sense * (end[MWI_END_ERROR] + slope * (angle - end[MWI_END_ANGLE])) : HUGE_VAL;
+}
+static inline void mwi_look_at_side(const mw_model *m, double *side, double ratio)
+{
+    double x[MW_MAX_UNKNOWNS], o[MW_MAX_OBSERVATION];
+    const double step = MWI_TURN / ((double)MWI_LOOKS_A_PITCH * mwi_parameters_in(m, side)[m->teeth]);
+    const double reference = mwi_reference_of(m, mwi_parameters_in(m, side));
+    mw_contact c;
+    mw_info info;
+    side[MWI_KIND] = MWI_NO_WINDOW;
+    if (mwi_pair_at(m, side, 0, reference, x, &info) >= 0 && mwi_contact_at(m, side + MWI_STATE, x, o, &c) == MW_LINE_CONTACT) {
+        side[MWI_KIND] = MWI_OF_LINES;
+        side[MWI_SENSE] = c.lever_wheel < 0.0 ? -1.0 : 1.0;
+        return;
+    }
+    for (int k = 0; k <= 2 * MWI_LOOKS; k++) {
+        const double angle = reference + (k % 2 ? step : -step) * ((k + 1) / 2);
+        if (mwi_touches(m, side, angle, x, &c) != MWI_ON_FLANKS) continue;
+        side[MWI_KIND] = MWI_OF_POINTS;
+        side[MWI_SENSE] = c.lever_wheel < 0.0 ? -1.0 : 1.0;
+        mwi_find_end(m, side, angle, -step, ratio, side + MWI_LOWER);
+        mwi_find_end(m, side, angle, step, ratio, side + MWI_UPPER);
+        return;
+    }
+}
+static inline int mwi_begin_side(const mw_model *m, const double *p, double *side)
+{
+    mwi_clear(side, mwi_side_size(m));
+    for (int k = 0; k < MWI_PLACES; k++) side[MWI_STATE + m->ns + k * (1 + m->nx)] = NAN;
+    return m->setup(p, side + MWI_STATE);
+}
+static inline double mwi_turned_by(const double *here, const double *there)
+{
+    double cosine = 0.0, sine = 0.0, along = 0.0;
+    for (int i = 0; i < 3; i++) {
+        cosine += here[4 * i] * there[4 * i];
+        sine += here[4 * i + 1] * there[4 * i];
+        along += here[12 + i] * here[4 * i + 2];
+    }
+    return along < 0.0 ? -mwi_angle_of(cosine, sine) : mwi_angle_of(cosine, sine);
+}
+static inline int mwi_offsets(const mw_model *m, double *c)
+{
+    const double zero[2] = { 0.0, 0.0 }, *const drive = c + MWI_SIDES + MWI_STATE;
+    double here[MW_MAX_OBSERVATION], there[MW_MAX_OBSERVATION];
+    for (int k = 0; k < m->nfunctions; k++) {
+        const mw_function *f = m->functions + k;
+        if (!mwi_same_text(f->name, "placement")) continue;
+        f->evaluate(drive, zero, here);
+        f->evaluate(drive + mwi_side_size(m), zero, there);
+        c[MWI_PINION_OFFSET] = -mwi_turned_by(here, there);
+        c[MWI_WHEEL_OFFSET] = mwi_turned_by(here + f->outputs / 2, there + f->outputs / 2);
+        return 1;
+    }
+    return 0;
+}
+static inline int mwi_cycle_setup(const mw_model *m, const double *p, const double *coast, double *c)
+{
+    double *const drive = c + MWI_SIDES, *const other = drive + mwi_side_size(m);
+    int guard = mwi_begin_side(m, p, drive);
+    mwi_clear(other, mwi_side_size(m));
+    if (guard || !mwi_has_memory(m)) return guard;
+    c[MWI_RATIO] = mwi_ratio(m, drive + MWI_STATE);
+    mwi_look_at_side(m, drive, c[MWI_RATIO]);
+    if (coast) guard = mwi_begin_side(m, coast, other);
+    if (coast && !guard && mwi_offsets(m, c)) mwi_look_at_side(m, other, c[MWI_RATIO]);
+    return guard;
+}
+static inline mw_side mwi_no_side(int status)
+{
+    mw_side side;
+    side.status = status;
+    side.pairs = 0, side.edge = status == MW_NO_CONTACT;
+    side.pair = side.error = side.ratio = NAN;
+    return side;
+}
+static inline double mwi_pairs_inside(const mw_model *m, const double *side, double angle, double *first, double *last)
+{
+    const double teeth = mwi_parameters_in(m, side)[m->teeth], pitch = MWI_TURN / teeth;
+    const double *const lower = side + MWI_LOWER, *const upper = side + MWI_UPPER;
+    double beyond = -HUGE_VAL;
+    *first = -MWI_PLACES / 2, *last = MWI_PLACES / 2;
+    if (upper[MWI_END_ANGLE] < HUGE_VAL) {
+        *first = -mwi_floor((upper[MWI_END_ANGLE] - angle) / pitch);
+        beyond = mwi_ahead_beyond(side[MWI_SENSE], upper, mwi_less_pitches(teeth, angle, *first - 1.0));
+    }
+    if (lower[MWI_END_ANGLE] > -HUGE_VAL) {
+        *last = mwi_floor((angle - lower[MWI_END_ANGLE]) / pitch);
+        beyond = mwi_larger(beyond, mwi_ahead_beyond(side[MWI_SENSE], lower, mwi_less_pitches(teeth, angle, *last + 1.0)));
+    }
+    return beyond;
+}
+static inline mw_side mwi_side_at(const mw_model *m, double *side, double angle)
+{
+    double x[MW_MAX_UNKNOWNS], at[MW_MAX_UNKNOWNS], o[MW_MAX_OBSERVATION], first = 0.0, last = 0.0;
+    double ahead = -HUGE_VAL, beyond = -HUGE_VAL;
+    const double teeth = mwi_parameters_in(m, side)[m->teeth], places = MWI_PLACES;
+    mw_side found = mwi_no_side(side[MWI_KIND] == MWI_ABSENT ? MW_BAD_INPUT : MW_NO_CONTACT);
+    mw_info info;
+    mw_contact c;
+    if (side[MWI_KIND] == MWI_ABSENT || side[MWI_KIND] == MWI_NO_WINDOW) return found;
+    if (side[MWI_KIND] == MWI_OF_POINTS) beyond = mwi_pairs_inside(m, side, angle, &first, &last);
+    for (double k = first; k <= last; k += 1.0) {
+        const int place = (int)(k - places * mwi_floor(k / places));
+        if (mwi_pair_at(m, side, place, mwi_less_pitches(teeth, angle, k), x, &info) < 0) continue;
+        found.pairs += side[MWI_KIND] == MWI_OF_POINTS;
+        if (!(side[MWI_SENSE] * x[m->error] > ahead + MWI_AHEAD)) continue;
+        ahead = side[MWI_SENSE] * x[m->error];
+        found.pair = k;
+        mwi_copy(at, x, m->nx);
+    }
+    if (found.pair != found.pair) return found;
+    m->set_phi(side + MWI_STATE, mwi_less_pitches(teeth, angle, found.pair));
+    found.status = mwi_contact_at(m, side + MWI_STATE, at, o, &c);
+    found.edge = beyond > ahead + MWI_EDGE_AHEAD;
+    found.error = at[m->error];
+    found.ratio = c.ratio;
+    return found;
+}
+static inline int mwi_cycle(const mw_model *m, double *c, double phi, mw_cycle *out)
+{
+    double *const drive = c + MWI_SIDES, *const other = drive + mwi_side_size(m), tooth, behind;
+    const double *const p = mwi_parameters_in(m, drive);
+    out->drive = out->coast = mwi_no_side(MW_BAD_INPUT);
+    out->backlash = NAN;
+    out->angle = mwi_own_angle(m, p, phi, &out->pair);
+    if (out->angle != out->angle) return MW_BAD_INPUT;
+    out->drive = mwi_side_at(m, drive, out->angle);
+    out->drive.pair += out->pair;
+    if (other[MWI_KIND] == MWI_ABSENT) return out->drive.status;
+    const double angle = mwi_own_angle(m, mwi_parameters_in(m, other), out->angle + c[MWI_PINION_OFFSET], &tooth);
+    out->coast = mwi_side_at(m, other, angle);
+    out->coast.pair += out->pair + tooth;
+    out->coast.error += c[MWI_RATIO] * c[MWI_PINION_OFFSET] + c[MWI_WHEEL_OFFSET];
+    behind = out->coast.error - out->drive.error;
+    tooth = MWI_TURN / p[m->teeth] * c[MWI_RATIO];
+    if (behind == behind) out->coast.error -= tooth * ((behind / tooth + MWI_TO_INTEGER) - MWI_TO_INTEGER);
+    out->backlash = drive[MWI_SENSE] * (out->coast.error - out->drive.error);
+    return out->drive.status;
+}
+#endif
+
+#ifndef MWI_SELF_TEST_H
+#define MWI_SELF_TEST_H
+enum { MWI_SOUND, MWI_CONTRACTS, MWI_EXCEEDS, MWI_REORDERS, MWI_INVERTS, MWI_FLUSHES, MWI_NO_NAN, MWI_WRONG_ROOT, MWI_WRONG_CONTACT };
+static inline int mwi_unsound(void)
+{
+    volatile double of_one = 1.0 + 1.0 / 1073741824.0, of_square = 1.0 + 1.0 / 536870912.0, one = 1.0, large = 9007199254740992.0;
+    volatile double largest = DBL_MAX, ten = 10.0, seven = 7.0, three = 3.0, least = DBL_MIN, two = 2.0, nothing = NAN;
+    const double a = of_one, b = of_square, u = one, l = large, m = largest, t = ten, s = seven, d = three, e = least, w = two;
+    const double unknown = nothing, part = e / t;
+    volatile double rest = a * a - b;
+    if (rest != 0.0) return MWI_CONTRACTS;
+    if (m * t / t < HUGE_VAL) return MWI_EXCEEDS;
+    if ((l + u) - l != 0.0 || (u + l) + u != l) return MWI_REORDERS;
+    if (s / d != 2.3333333333333335 || t / d != 3.3333333333333335 || w / d != 0.6666666666666666) return MWI_INVERTS;
+    if (!(part > 0.0) || !(part * t > 0.5 * e)) return MWI_FLUSHES;
+    if (unknown == unknown || unknown < u || unknown >= u) return MWI_NO_NAN;
+    if (sqrt(w) != 1.4142135623730951 || sqrt(d) != 1.7320508075688772) return MWI_WRONG_ROOT;
+    return MWI_SOUND;
+}
+static inline int mwi_finds(const mw_model *m, const double *p, double phi, const double *x0, double *s, double *work, double *x)
+{
+    mw_info info;
+    return mwi_solve(m, p, phi, s, work, x, &info) >= 0 && mwi_near(m, s, x, x0, MWI_NO_FURTHER) ? MWI_SOUND : MWI_WRONG_CONTACT;
 }
 #endif
 
@@ -6189,6 +6500,43 @@ static inline int spherical_concave_convex_follow(double *s, double phi, double 
     mw_info *const record = info ? info : &unused;
     for (int k = 0; k < spherical_concave_convex_NP; k++) p[k] = s[spherical_concave_convex_NS - spherical_concave_convex_NP + k];
     return mwi_follow(&spherical_concave_convex_model, p, phi, s, work, x, record);
+}
+
+/* Numbers that a drive of many pairs and two flanks keeps. */
+enum { spherical_concave_convex_NC = MWI_SIDES + 2 * (MWI_STATE + spherical_concave_convex_NS + MWI_PLACES * (1 + spherical_concave_convex_NX)) };
+
+/* The whole drive: c[spherical_concave_convex_NC] for spherical_concave_convex_cycle, of complete parameters p[spherical_concave_convex_NP] of the flank that drives and coast[spherical_concave_convex_NP] of
+ * the other one. coast may be NULL where one design gives both: it is then the other flank of p. Where each has a design of its
+ * own (spherical_concave_convex_OTHER_FLANK is -1), NULL leaves none. Looks for where a pair is within the limits of its flanks. Returns 0, or 1 +
+ * the index in spherical_concave_convex_guard_texts of what does not hold for either. */
+static inline int spherical_concave_convex_cycle_setup(const double *p, const double *coast, double *c)
+{
+    double other[spherical_concave_convex_NP];
+    for (int k = 0; k < spherical_concave_convex_NP; k++) other[k] = k == spherical_concave_convex_OTHER_FLANK ? -p[k] : p[k];
+    return mwi_cycle_setup(&spherical_concave_convex_model, p, coast || spherical_concave_convex_OTHER_FLANK < 0 ? coast : other, c);
+}
+
+/* What the drive does at input angle phi, rad, of any size to MW_MAX_ANGLE: the wheel stands at the ratio times phi plus
+ * out->drive.error where it is driven, plus out->coast.error where it runs ahead. The same bits whatever was asked before; c
+ * is written, one for each thread. Returns out->drive.status. Contact of edges is not looked for: see mw_side. */
+static inline int spherical_concave_convex_cycle(double *c, double phi, mw_cycle *out)
+{
+    return mwi_cycle(&spherical_concave_convex_model, c, phi, out);
+}
+
+/* A design, an input angle, and its contact there to the last digit. */
+static const double spherical_concave_convex_sample[] = { 1.0, 4.0, 0.3490658503988659, 15.0, 4.0, 3.141592653589793, 36.0, 150.0, 15.0, 4.0, 3.141592653589793, 1.52, 4.0, 72.0, 72.0, 15.0, 4.0, 3.141592653589793, 1.52, 4.0, 0.0, 0.0, 0.0, 0.00632, 1.0 };
+static const double spherical_concave_convex_sample_angle = 0.03;
+static const double spherical_concave_convex_sample_contact[] = { 4.995474599487093, 0.0, 3.5179475803202043, 0.0, -7.133660990348815e-42 };
+
+/* Whether this program computes as it must: 0, or what is wrong: 1 products fused into sums, 2 numbers wider than doubles, 3 sums
+ * in another order, 4 quotients by reciprocals, 5 small numbers flushed to zero, 6 not-a-number not told, 7 roots, 8 a contact
+ * that is not found. Freestanding, a sqrt of your own must not be compiled into a call of itself. */
+static inline int spherical_concave_convex_self_test(void)
+{
+    double s[spherical_concave_convex_NS], work[spherical_concave_convex_NP], x[spherical_concave_convex_NX];
+    const int unsound = mwi_unsound();
+    return unsound ? unsound : mwi_finds(&spherical_concave_convex_model, spherical_concave_convex_sample, spherical_concave_convex_sample_angle, spherical_concave_convex_sample_contact, s, work, x);
 }
 
 /* Contact geometry at a solution x of spherical_concave_convex_solve or spherical_concave_convex_follow, s as it left it; o[spherical_concave_convex_NO] as of spherical_concave_convex_observe. spherical_concave_convex_flags has the

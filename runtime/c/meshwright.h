@@ -71,6 +71,13 @@ double mw_reduce(const mw_model *m, const double *p, double phi, double *pair);
 size_t mw_turn(const mw_model *m, const double *p, const double *phi, size_t n, double *s, double *work, double *x,
                mw_info *info);
 
+/* The whole drive at each of phi[n], as of X_cycle: c[mw_cycle_size(m)] from mw_cycle_setup of complete parameters of either
+ * flank, p[np] of the one that drives and coast[np], which may be NULL. mw_cycle_setup returns 0, 1 + index of a guard that
+ * one of them does not pass, or -1 for a foreign table; mw_cycles the number of angles at which a pair touches. */
+int mw_cycle_size(const mw_model *m);
+int mw_cycle_setup(const mw_model *m, const double *p, const double *coast, double *c);
+size_t mw_cycles(const mw_model *m, double *c, const double *phi, size_t n, mw_cycle *out);
+
 /* Follow the branch through the solution x0 at phi0 along phi[n], in order, starting near phi0; x[n*nx], info[n].
  * s is set up. Stops where the branch ends or an angle is none: returns how many points were solved; info of the next one says why. */
 size_t mw_follow(const mw_model *m, double *s, double phi0, const double *x0, const double *phi, size_t n, double *x,

@@ -55,5 +55,22 @@ typedef struct mw_contact {
     double lever_pinion, lever_wheel, ratio;
 } mw_contact;
 
+/* One flank of a drive at an input angle, of X_cycle: the pair that leads, counted from the reference of its own flank, the
+ * transmission error, rad, and d(wheel angle)/d(pinion angle). pairs: how many touch within the limits of both flanks; 0 along
+ * lines, of which nobody asks how far they reach. edge: pairs are looked at inside these limits only, and the edge of another
+ * may touch before them; error and ratio are not numbers, and status is no success, where no pair touches inside. */
+typedef struct mw_side {
+    int status, pairs, edge;
+    double pair, error, ratio;
+} mw_side;
+
+/* A drive at an input angle: the pair of X_reduce and its own angle; the flank that drives and the other one, in the angles of
+ * the first; how far the wheel can turn from one to the other, rad, negative where the drive jams. */
+typedef struct mw_cycle {
+    double pair, angle;
+    mw_side drive, coast;
+    double backlash;
+} mw_cycle;
+
 /* END INTERFACE */
 #endif

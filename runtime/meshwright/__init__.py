@@ -16,6 +16,7 @@ _PLACES = {
     "Drive": "meshwright.drive",
     "TCA": "meshwright.contact.results",
     "UsageError": "meshwright.base.errors",
+    "get_include": "meshwright.base.drives",
 }
 
 __all__ = [*_PLACES]

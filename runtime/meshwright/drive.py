@@ -191,6 +191,15 @@ class Drive:
 
         return turning(self, angles)
 
+    def cycle(self, angles, coast=None):
+        """The whole drive, all pairs and both flanks, at pinion angles (rad) of any size:
+        :class:`~meshwright.cycle.turning_drive.Cycle`. ``coast``: the drive of the other flank, where that has a design
+        of its own.
+        """
+        from meshwright.cycle.turning_drive import cycle
+
+        return cycle(self, angles, coast)
+
     @cached_property
     def enclosed(self):
         """The design's state enclosed: :class:`~meshwright.contact.certificate.EnclosedDesign`."""

@@ -100,6 +100,36 @@ def test_a_library_with_chosen_drives_holds_no_other(tmp_path, installed):
     assert subprocess.run([tmp_path / "count"]).returncode == 11
 
 
+@pytest.mark.validate
+def test_headers_of_chosen_drives_alone_are_installed(installed):
+    headers = {path.name for path in installed.rglob("*.h")}
+    assert "cylindrical_worm_zn_zn.h" in headers and "meshwright.h" in headers
+    assert not {name for name in headers if name.startswith(("face_worm", "spherical", "bevel"))}
+
+
+@pytest.mark.parametrize(
+    ("libraries", "prefix"),
+    [("lib", "${pcfiledir}/../../"), ("lib/x86_64-linux-gnu", "${pcfiledir}/../../../"), ("/opt/lib", "/usr/mw")],
+)
+def test_pkg_config_finds_the_prefix_however_deep_the_libraries_lie(tmp_path, libraries, prefix):
+    places = ("-DCMAKE_INSTALL_PREFIX=/usr/mw", f"-DCMAKE_INSTALL_LIBDIR={libraries}")
+    c.run(c.tool("cmake"), "-S", c.RUNTIME, "-B", tmp_path, "-DMESHWRIGHT_DRIVES=cylindrical_worm_zn_zn", *places)
+    said = dict(line.split("=") for line in (tmp_path / "meshwright.pc").read_text().splitlines() if "=" in line)
+    assert said["prefix"] == prefix
+    assert said["libdir"] == (libraries if libraries.startswith("/") else f"${{prefix}}/{libraries}")
+
+
+def test_a_project_that_holds_the_library_names_it_as_an_installed_one(tmp_path):
+    (tmp_path / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.18)\nproject(host LANGUAGES C)\n"
+        "set(MESHWRIGHT_DRIVES cylindrical_worm_zn_zn)\n"
+        f"add_subdirectory({c.RUNTIME} meshwright)\n"
+        "add_executable(host host.c)\ntarget_link_libraries(host PRIVATE meshwright::meshwright)\n"
+    )
+    (tmp_path / "host.c").write_text("int main(void) { return 0; }\n")
+    c.run(c.tool("cmake"), "-S", tmp_path, "-B", tmp_path / "build")
+
+
 def test_a_drive_that_does_not_exist_is_named_by_cmake(tmp_path):
     command = [c.tool("cmake"), "-S", c.RUNTIME, "-B", tmp_path, "-DMESHWRIGHT_DRIVES=face_worms"]
     done = subprocess.run(command, capture_output=True, text=True)

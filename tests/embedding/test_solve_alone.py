@@ -39,6 +39,30 @@ static void gaps(const double *s, const double *x, double *distance, double *nor
     *distance = sqrt(sum), *normals = 1.0 + dot, *size = sqrt(length);
 }
 
+static int sides_differ(const mw_side *a, const mw_side *b)
+{
+    return a->status != b->status || a->pairs != b->pairs || a->edge != b->edge ||
+           memcmp(&a->pair, &b->pair, 3 * sizeof a->pair) != 0;
+}
+
+/* Whether header and library say the same of the whole drive, asked first far away by one of them. */
+static int cycles_differ(const double *p, double phi)
+{
+    static double c[X(NC)], by_library[X(NC)];
+    double coast[X(NP)];
+    mw_cycle one, other;
+    for (int k = 0; k < X(NP); k++) coast[k] = k == X(OTHER_FLANK) ? -p[k] : p[k];
+    const int guard = X(cycle_setup)(p, NULL, c), size = mw_cycle_size(&X(model));
+    if (size != X(NC) || guard != mw_cycle_setup(&X(model), p, X(OTHER_FLANK) < 0 ? NULL : coast, by_library)) return 1;
+    X(cycle)(c, phi + 0.4, &one);
+    if (X(cycle)(c, phi, &one) != one.drive.status) return 1;
+    mw_cycles(&X(model), by_library, &phi, 1, &other);
+    if (guard && one.drive.status >= 0 && one.coast.status >= 0) return 1;
+    return sides_differ(&one.drive, &other.drive) || sides_differ(&one.coast, &other.coast) ||
+           memcmp(&one.pair, &other.pair, 2 * sizeof one.pair) != 0 ||
+           memcmp(&one.backlash, &other.backlash, sizeof one.backlash) != 0;
+}
+
 int main(void)
 {
     double p[X(NP)], phi, s[X(NS)], x[X(NX)], other[X(NX)], state[X(NS)], work[X(NP)];
@@ -62,6 +86,7 @@ int main(void)
         if (followed.status != by_library.status || memcmp(next, other, sizeof other) != 0) differ++;
         if (guard && followed.status != MW_BAD_INPUT) garbage++;
         if (X(follow)(s_next, phi, next, NULL) != followed.status || memcmp(next, other, sizeof other) != 0) differ++;
+        if (count % 8 == 0 && cycles_differ(p, phi)) differ++;
         if (status < 0) {
             for (int i = 0; i < X(NX); i++) numbers += x[i] == x[i];
             continue;

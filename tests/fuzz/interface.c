@@ -24,6 +24,7 @@ static const char *const kinds[] = {
     "the drive's table", "the drive's table", "the drive's table", "mw_solve", "a header's own solve", "mw_refine", "mw_trace",
     "mw_analyse", "mw_follow", "mw_arclength", "branch points", "lanes", "sensitivities", "words", "foreign tables",
     "CasADi's entries", "edges", "mw_bounds", "mw_certify", "mw_certify_many", "mw_certify_piece", "mw_first_contact",
+    "mw_cycles",
 };
 
 enum { CALLS = 24, POINTS = 24, ROOMS = 512, KINDS = sizeof kinds / sizeof *kinds };
@@ -417,6 +418,25 @@ static void follow(reader *r, fuzzed *f)
     calls += 2;
 }
 
+/* The whole drive, its other flank of any parameters. */
+static void cycle(reader *r, fuzzed *f)
+{
+    const mw_model *m = f->m;
+    const size_t n = 1 + byte(r) % POINTS;
+    double *phi = numbers(n), *c = numbers((size_t)mw_cycle_size(m));
+    mw_cycle *found = room(n, sizeof *found);
+    size_t touching = 0;
+    angles(r, phi, n);
+    mw_cycle_setup(m, f->p, byte(r) % 2 ? f->p : NULL, c);
+    const size_t count = mw_cycles(m, c, phi, n, found);
+    for (size_t k = 0; k < n; k++) {
+        touching += found[k].drive.status >= 0;
+        if ((found[k].drive.status >= 0) != (found[k].drive.error == found[k].drive.error)) fail("an error without a contact");
+    }
+    if (touching != count) fail("the contacts of a whole drive are not as many as was said");
+    calls += 2;
+}
+
 static void arc(reader *r, fuzzed *f)
 {
     const size_t n = byte(r) % POINTS, nx = (size_t)f->m->nx;
@@ -685,6 +705,7 @@ static uint64_t run(const uint8_t *data, size_t size)
             case 19: certificates(&r, &f); break;
             case 20: path(&r, &f); break;
             case 21: first(&r, &f); break;
+            case 22: cycle(&r, &f); break;
             default: break;
             }
         }

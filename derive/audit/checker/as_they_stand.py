@@ -29,6 +29,16 @@ SOLVED = {
     mw_info *const record = info ? info : &unused;
     for (int k = 0; k < X_NP; k++) p[k] = s[X_NS - X_NP + k];
     return mwi_follow(&X_model, p, phi, s, work, x, record);""",
+    "cycle_setup": """
+    double other[X_NP];
+    for (int k = 0; k < X_NP; k++) other[k] = k == X_OTHER_FLANK ? -p[k] : p[k];
+    return mwi_cycle_setup(&X_model, p, coast || X_OTHER_FLANK < 0 ? coast : other, c);""",
+    "cycle": """
+    return mwi_cycle(&X_model, c, phi, out);""",
+    "self_test": """
+    double s[X_NS], work[X_NP], x[X_NX];
+    const int unsound = mwi_unsound();
+    return unsound ? unsound : mwi_finds(&X_model, X_sample, X_sample_angle, X_sample_contact, s, work, x);""",
     "geometry": """
     const int kind = mwi_contact_at(&X_model, s, x, o, contact), touch = mwi_touch(&X_model, x, o);
     return touch < 0 ? touch : kind;""",

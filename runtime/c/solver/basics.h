@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stddef.h>
+#include "../mw_arithmetic.h"
 #include "../mw_model.h"
 #include "../mw_status.h"
 

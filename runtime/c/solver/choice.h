@@ -228,21 +228,25 @@ static inline int mwi_strode(mwi_pair *t, double phi, double *x, mw_info *info)
     return 0;
 }
 
+/* How far the wheel turns with a turn of the pinion by 1 without an error. s is left set up for that. */
+static inline double mwi_ratio(const mw_model *m, double *s)
+{
+    double o[MW_MAX_OBSERVATION], x[MW_MAX_UNKNOWNS];
+    mwi_clear(x, m->nx);
+    m->set_phi(s, 0.0);
+    m->observe(s, x, o);
+    const double before = o[m->wheel_angle];
+    m->set_phi(s, 1.0);
+    m->observe(s, x, o);
+    return o[m->wheel_angle] - before;
+}
+
 /* Whether the wheel has turned the tooth of the pair away from the pinion. */
 static inline int mwi_faces_away(mwi_pair *t, double phi)
 {
-    const double reference = mwi_reference_angle(t), distance = mwi_abs(phi - reference);
-    double o[MW_MAX_OBSERVATION], x[MW_MAX_UNKNOWNS], turned;
+    const double distance = mwi_abs(phi - mwi_reference_angle(t));
     if (!(distance > MWI_FAR)) return 0;
-    if (t->reach == 0.0) {
-        mwi_clear(x, t->m->nx);
-        t->m->set_phi(t->s, reference);
-        t->m->observe(t->s, x, o);
-        turned = o[t->m->wheel_angle];
-        t->m->set_phi(t->s, reference + 1.0);
-        t->m->observe(t->s, x, o);
-        t->reach = MWI_HALF_A_TURN / mwi_abs(o[t->m->wheel_angle] - turned);
-    }
+    if (t->reach == 0.0) t->reach = MWI_HALF_A_TURN / mwi_abs(mwi_ratio(t->m, t->s));
     return distance > t->reach;
 }
 

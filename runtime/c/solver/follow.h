@@ -66,15 +66,13 @@ static inline double mwi_own_angle(const mw_model *m, const double *p, double ph
     return mwi_reduce(p[m->teeth], mwi_reference_of(m, p), phi, pair);
 }
 
-/* s[ns] from setup, left set up for info->angle; p[np] its parameters; work[np]; x[nx] in: what the call before gave, or not a
- * number; out: the contact, not a number where there is none. Returns info->status. */
-static inline int mwi_follow(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
+/* The contact of pair 0 at its own angle; s[ns] from setup, left set up for it; p[np] its parameters; work[np]; x[nx] in: what the
+ * call before gave, or not a number; out: the contact, not a number where there is none. Returns info->status. */
+static inline int mwi_follow_at(const mw_model *m, const double *p, double angle, double *s, double *work, double *x, mw_info *info)
 {
-    double pair, *const kept = mwi_has_memory(m) ? s + m->memory : NULL;
-    const double angle = mwi_own_angle(m, p, phi, &pair);
-    const int known = angle == angle, warm = known && kept && mwi_go_on(m, s, kept, angle, x, info);
-    if (!known) *info = mwi_ended(MW_BAD_INPUT, 0);
-    else if (!kept) mwi_solve(m, p, angle, s, work, x, info);
+    double *const kept = mwi_has_memory(m) ? s + m->memory : NULL;
+    const int warm = kept && mwi_go_on(m, s, kept, angle, x, info);
+    if (!kept) mwi_solve(m, p, angle, s, work, x, info);
     else if (!warm) {
         mwi_pair t;
         t.m = m, t.p = p, t.s = s, t.work = work;
@@ -82,8 +80,20 @@ static inline int mwi_follow(const mw_model *m, const double *p, double phi, dou
         if (!info->guard) mwi_keep(&t, kept, mwi_solved(&t, angle, x, info) ? angle : NAN, x);
         m->set_phi(s, angle);
     }
-    info->pair = pair, info->angle = angle, info->cold = !warm;
+    info->cold = !warm;
     for (int i = 0; i < m->nx && info->status < 0; i++) x[i] = NAN;
+    return info->status;
+}
+
+/* That of the pair in mesh at phi, at info->angle of its own. */
+static inline int mwi_follow(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
+{
+    double pair;
+    const double angle = mwi_own_angle(m, p, phi, &pair);
+    *info = mwi_ended(MW_BAD_INPUT, 0);
+    if (angle == angle) mwi_follow_at(m, p, angle, s, work, x, info);
+    else for (int i = 0; i < m->nx; i++) x[i] = NAN;
+    info->pair = pair, info->angle = angle;
     return info->status;
 }
 

@@ -18,6 +18,11 @@ SHIPPED = Path(__file__).parent.parent / "_generated"
 ENVIRONMENT, CACHE, GROUP = "MESHWRIGHT_DRIVES", "MESHWRIGHT_CACHE", "meshwright.drives"
 
 
+def get_include():
+    """The folder of C headers: ``<drive>.h`` needs nothing else, ``meshwright.h`` the library."""
+    return str(SHIPPED / "include")
+
+
 def folders(*first):
     """The folders of drives, in the order in which they are searched: the ``first`` before all others."""
     for folder in first:

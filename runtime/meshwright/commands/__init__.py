@@ -9,7 +9,7 @@ MODULES = {
         "drives", "new", "show", "explain", "tca", "surface", "ratio", "limits", "loaded", "fe", "sweep", "report",
         "live", "schema", "grid", "measured", "identify", "benchmark", "completion",
     )
-} | {"import": "meshwright.commands.rexs_import", "export": "meshwright.commands.rexs_export"}  # fmt: skip
+} | {"import": "meshwright.commands.rexs_import", "export": "meshwright.commands.export"}  # fmt: skip
 
 
 #: The module of the commands that follow a family's tool over its life, named by the family.

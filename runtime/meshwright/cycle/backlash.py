@@ -32,7 +32,7 @@ def backlash(drive):
         return math.nan
     complete = here.window.complete and there.window.complete
     angles = np.arange(_samples(here, there)) / _samples(here, there) * drive.pitch() if complete else np.zeros(1)
-    pinion, wheel = _offsets(here, there)
+    pinion, wheel = offsets(here, there)
     play = here.sense * (_stops(there, angles + pinion) + wheel - _stops(here, angles))
     tooth = drive.pitch() * drive.ratio
     least = float(np.min(play)) if np.isfinite(play).all() else math.nan
@@ -69,7 +69,7 @@ def _stops(mesh, angles):
     return mesh.drive.ratio * angles + (found.upper if mesh.sense > 0 else found.lower)
 
 
-def _offsets(here, there):
+def offsets(here, there):
     """What to add to pinion angles of one flank to get the other's for the same stand of the body, and to the other's
     wheel angles to get the first one's.
     """

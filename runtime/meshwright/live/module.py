@@ -21,28 +21,36 @@ EXPORTS = (
 #: No product is contracted into a sum, so that every number has the bits of the native objects.
 FLAGS = (
     "-target", "wasm32-freestanding", "-mbulk-memory", "-std=c99", "-O3", "-ffp-contract=off", "-nostdlib",
-    "-Wl,--no-entry", *(f"-Wl,--export=live_{name}" for name in EXPORTS),
+    "-Wl,--no-entry",
 )  # fmt: skip
 
 
 def compiled(name, folder):
-    """The WebAssembly module (bytes) of the drive ``name``, whose headers the folder of drives has.
+    """The page's WebAssembly module (bytes) of the drive ``name``, whose headers the folder of drives has."""
+    defines = (f"-DLIVE_DRIVE={name}", f'-DLIVE_HEADER="{name}.h"')
+    exports = (f"live_{export}" for export in EXPORTS)
+    return to_wasm(SOURCE.read_text(encoding="utf-8"), exports, folder, defines)
+
+
+def to_wasm(source, exports, folder, defines=()):
+    """A WebAssembly module (bytes) of a C text that includes a drive's header, which the folder of drives has.
 
     Raises :class:`UsageError` without the compiler (clang of the package ``ziglang``), :class:`LibraryError` if it
-    refuses a source.
+    refuses the source.
     """
     if importlib.util.find_spec("ziglang") is None:
         raise UsageError(
-            "live: ziglang, the compiler for WebAssembly, is not installed; `pip install 'meshwright[live]'` brings it"
+            "ziglang, the compiler for WebAssembly, is not installed; `pip install 'meshwright[live]'` brings it"
         )
     headers = (SOURCE.parent / "include", Path(folder) / "include", SHIPPED / "include", SHIPPED / "source")
     with tempfile.TemporaryDirectory() as work:
-        target = Path(work) / f"{name}.wasm"
+        path, target = Path(work) / "module.c", Path(work) / "module.wasm"
+        path.write_text(source, encoding="utf-8")
         command = [
-            sys.executable, "-m", "ziglang", "cc", *FLAGS, *(f"-I{place}" for place in headers),
-            f"-DLIVE_DRIVE={name}", f'-DLIVE_HEADER="{name}.h"', str(SOURCE), "-o", str(target),
+            sys.executable, "-m", "ziglang", "cc", *FLAGS, *(f"-Wl,--export={export}" for export in exports),
+            *(f"-I{place}" for place in headers), *defines, str(path), "-o", str(target),
         ]  # fmt: skip
         done = subprocess.run(command, capture_output=True, text=True)
         if done.returncode:
-            raise LibraryError(f"{name} did not compile to WebAssembly: {shlex.join(command)}\n{done.stderr.strip()}")
+            raise LibraryError(f"not compiled to WebAssembly: {shlex.join(command)}\n{done.stderr.strip()}")
         return target.read_bytes()

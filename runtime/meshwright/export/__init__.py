@@ -1,0 +1,1 @@
+"""A drive inside other software: tables of its error."""

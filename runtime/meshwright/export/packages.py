@@ -1,0 +1,103 @@
+"""A drive as a package of another language: a crate of Rust, or an ES module that holds WebAssembly.
+
+Both have the drive's own header and one C file, which knows the design and nothing else; their results have the native
+bits.
+"""
+
+import math
+import re
+from pathlib import Path
+
+from meshwright.base.errors import UsageError
+from meshwright.base.files import write_bytes
+from meshwright.contact.analysis import statuses
+
+TEMPLATES = Path(__file__).parent / "templates"
+
+#: What both registries take for a name.
+_NAME = re.compile(r"[a-z][a-z0-9_-]*")
+
+
+def crate(drive, coast, folder):
+    """Write a crate of a drive, and of the drive of its other flank or None, into a new folder."""
+    name = _name(folder, "--crate")
+    files = {
+        "Cargo.toml": _filled("Cargo.toml", name=name, said=_said(drive)),
+        "build.rs": _filled("build.rs"),
+        "src/lib.rs": _filled("lib.rs", said=_said(drive)),
+        "examples/follow.rs": _filled("follow.rs", crate=name.replace("-", "_")),
+        f"c/{_prefix(drive)}.h": _header(drive),
+        "c/mesh.c": source(drive, coast),
+    }
+    _write(folder, files)
+
+
+def npm(drive, coast, folder):
+    """Write an npm package likewise; raises :class:`~meshwright.base.errors.UsageError` without a compiler for it."""
+    from meshwright.live.module import to_wasm
+
+    name, text = _name(folder, "--npm"), source(drive, coast)
+    exports = ("mesh_begin", "mesh_follow", "mesh_cycle", "mesh_memory", "mesh_result")
+    words = ", ".join(f'"{code}": "{word}"' for code, word in statuses().items())
+    files = {
+        "package.json": _filled("package.json", name=name, said=_said(drive)),
+        "index.js": _filled("index.js", words=words),
+        "index.d.ts": _filled("index.d.ts"),
+        "example.mjs": _filled("example.mjs"),
+        "mesh.wasm": to_wasm(text, exports, drive.design.description["folder"]),
+    }
+    _write(folder, files)
+
+
+def source(drive, coast):
+    """The C file of a package: the design's parameters, and calls that pass plain numbers."""
+    other = drive.design if coast is None else coast.design
+    return _filled(
+        "mesh.c",
+        said=_said(drive),
+        drive=_prefix(drive),
+        sign=drive.design.mirror.sign,
+        driven=_numbers(drive.design.parameters),
+        coasting=_numbers(other.parameters),
+        coast=int(coast is not None),
+    )
+
+
+def _prefix(drive):
+    return drive.design.description["prefix"]
+
+
+def _header(drive):
+    folder = Path(drive.design.description["folder"])
+    return (folder / "include" / f"{_prefix(drive)}.h").read_text(encoding="utf-8")
+
+
+def _said(drive):
+    return re.sub(r'[*"\\]', "", drive.design.label)
+
+
+def _numbers(values):
+    return ", ".join(repr(float(value)) if math.isfinite(value) else "NAN" for value in values)
+
+
+def _filled(template, **values):
+    text = (TEMPLATES / template).read_text(encoding="utf-8")
+    for name, value in values.items():
+        text = text.replace(f"@{name}@", str(value))
+    return text
+
+
+def _name(folder, option):
+    name = Path(folder).name
+    if not _NAME.fullmatch(name):
+        raise UsageError(f"{option} {folder}: the folder names the package; use small letters, digits, - and _ alone")
+    if Path(folder).exists() and (not Path(folder).is_dir() or any(Path(folder).iterdir())):
+        raise UsageError(f"{option} {folder}: is there already; name a new folder or an empty one")
+    return name
+
+
+def _write(folder, files):
+    for name, content in files.items():
+        path = Path(folder) / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_bytes(str(path), content if isinstance(content, bytes) else content.encode())
