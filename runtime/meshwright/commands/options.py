@@ -3,11 +3,10 @@
 import argparse
 import re
 import sys
-import tomllib
 
 import numpy as np
 
-from meshwright.base.errors import UsageError
+from meshwright.base.errors import DesignError, UsageError
 from meshwright.contact.analysis import largest_angle
 from meshwright.contact.friction import Friction
 from meshwright.design import description, outline
@@ -36,8 +35,8 @@ def setting(text):
     if not equals or not place:
         raise UsageError(f"--set {text}: not TABLE.KEY=VALUE; for example --set misalignment.vertical_deg=0.05")
     try:
-        return place.strip(), tomllib.loads(f"value = {value}")["value"] if "\n" not in value else value
-    except (ValueError, RecursionError):  # text without quotes, or what no number or table can be
+        return place.strip(), designs.parsed(f"value = {value}", "--set")["value"] if "\n" not in value else value
+    except DesignError:  # text without quotes, or what no number or table can be
         return place.strip(), value.strip()
 
 
