@@ -77,6 +77,17 @@ def test_a_size_too_small_to_compute_with_is_named_not_what_follows_from_it(name
         drive.with_(design={key: 1e-300})
 
 
+@pytest.mark.parametrize("name", ["plain-zn", "spherical-table-2-3", "helical-crowned", "face-worm-conical-convex",
+                                  "bevel-formate"])  # fmt: skip
+def test_flanks_that_are_far_apart_do_not_touch(name):
+    """A separation of metres would draw an ellipse of metres; marking compound has some thousandths of a millimetre."""
+    drive, chance = Drive.load(name), random.Random(name)
+    for separation in (1.0 + 1e-9, 1e5, 10.0 ** chance.uniform(0.0, 9.0)):
+        with pytest.raises(DesignError, match="contact.separation_mm = .*: must not be greater than 1; .*smaller"):
+            drive.with_(contact={"separation_mm": separation})
+    drive.with_(contact={"separation_mm": 1.0})
+
+
 def test_missing_keys_are_named():
     tables = design.read("recess-action-full")
     del tables["design"]["wheel_teeth"]
