@@ -1,5 +1,7 @@
 """Bad input: an error that names key, value, reason and remedy; exit status 2; nothing already written is lost."""
 
+import random
+import re
 import subprocess
 import sys
 
@@ -73,6 +75,17 @@ def test_a_size_too_small_to_compute_with_is_named_not_what_follows_from_it(name
     key = next(k for k in ("normal_module_mm", "axial_module_mm") if drive.design.tables["design"].get(k))
     with pytest.raises(DesignError, match=f"design.{key} = 1e-300: too small to compute with.*larger"):
         drive.with_(design={key: 1e-300})
+
+
+@pytest.mark.parametrize("name", ["plain-zn", "spherical-table-2-3", "helical-crowned", "face-worm-conical-convex",
+                                  "bevel-formate"])  # fmt: skip
+def test_flanks_that_are_far_apart_do_not_touch(name):
+    """A separation of metres would draw an ellipse of metres; marking compound has some thousandths of a millimetre."""
+    drive, chance = Drive.load(name), random.Random(name)
+    for separation in (1.0 + 1e-9, 1e5, 10.0 ** chance.uniform(0.0, 9.0)):
+        with pytest.raises(DesignError, match="contact.separation_mm = .*: must not be greater than 1; .*smaller"):
+            drive.with_(contact={"separation_mm": separation})
+    drive.with_(contact={"separation_mm": 1.0})
 
 
 def test_missing_keys_are_named():
@@ -187,6 +200,41 @@ FILES = {
     "not-utf-8": (b"name = '\xff\xfe'", "save it as UTF-8"),
     "long": (b"#" * (design.LARGEST_FILE + 1), "longer than 1048576 bytes"),
 }
+
+
+def _nested(chance):
+    """TOML text of nested tables: so many names that tables of tables, or a key's dots, go deep."""
+    names = chance.choices(("a", "x1", '"q.q"', "'='", '"\\""'), k=chance.choice((40, 300, 500, 3000, 60_000)))
+    dotted = chance.choice((".", " . ")).join(names)
+    return chance.choice((
+        f"[{dotted}]\n", f"[[{dotted}]]\n", f"{dotted} = 1\n", f"x = {{{dotted} = 1}}\n", f"[{dotted}]\n[{dotted}.b]\n",
+        "x = " + "".join(f"{{{name} = " for name in names) + "1" + "}" * len(names),
+        "x = " + "[{a = " * len(names) + "1" + "}]" * len(names),
+    ))  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_nested_tables_are_refused_before_they_cost_time_or_stack(seed, tmp_path, capsys):
+    text = "drive = 'spherical'\n" + _nested(random.Random(seed))
+    (tmp_path / "design.toml").write_text(text, encoding="utf-8")
+    assert main(["tca", str(tmp_path / "design.toml")]) == 2
+    assert re.search("nested too deeply|unknown key", capsys.readouterr().err)
+    with pytest.raises(DesignError):
+        Drive.from_tables(_deep(seed))
+
+
+def _deep(depth):
+    tables = {"drive": "spherical", "flank": "right"}
+    inner = tables
+    for _ in range(10 ** (1 + depth % 4)):
+        inner["design"] = inner = {}
+    return design.changed(tables, {"design.x": 1.0})
+
+
+def test_dots_in_names_and_remarks_nest_nothing():
+    dots = ".".join("a" * 80)
+    text = f'# {dots}\nname = "{dots}"\n' + f"x = \'\'\'\n{dots} = 1\n\'\'\'\n" + f'y = """\n{dots}"""\n'
+    assert design.parsed(text, "FILE") == {"name": dots, "x": f"{dots} = 1\n", "y": dots}
 
 
 @pytest.mark.parametrize("kind", FILES)

@@ -16,8 +16,8 @@ from derive.audit.checker import attempts
 from derive.passes.equations import derive
 from derive.passes.pivot_order import reduce
 from meshwright import Drive
+from meshwright.base import cache, drives, first_use
 from meshwright.base import compile as build
-from meshwright.base import drives, first_use
 from meshwright.base.errors import DesignError, LibraryError
 from meshwright.base.library import text
 from meshwright.cli import main
@@ -85,7 +85,7 @@ def test_no_object_of_what_the_drive_was_before_stays(folder):
 
 def test_many_designs_of_it_are_traced_in_lanes_of_their_own_object(folder, crowned, tmp_path, monkeypatch):
     """Compiled from the folder's headers when first asked for, into the cache: one by one they are the same."""
-    monkeypatch.setenv(drives.CACHE, str(tmp_path / "cache"))
+    monkeypatch.setenv(cache.CACHE, str(tmp_path / "cache"))
     own = Drive.load(crowned(0.001), drives=folder)
     crowns = np.linspace(0.0, 0.002, 9)
     found = samples.solve(own, ["design.blade_crown_per_mm"], crowns[:, None], np.radians([-10.0, 10.0]))
@@ -239,7 +239,7 @@ def test_a_file_that_defines_no_drive_is_refused_with_the_reason(tmp_path, text,
 def test_a_combination_is_made_once_by_two_processes_and_again_where_its_file_is_damaged(tmp_path):
     """One line says so; a truncated object is compiled anew, not loaded."""
     pair = ["tca", "spherical-table-4-4-concave", "--set", "design.pinion_form=spur", "--set", "design.wheel_form=spur"]
-    environment = os.environ | {drives.CACHE: str(tmp_path)}
+    environment = os.environ | {cache.CACHE: str(tmp_path)}
     command = [sys.executable, "-c", CALL, *pair, "--phi-deg", "0"]
     both = [subprocess.Popen(command, cwd=ROOT, env=environment, stderr=subprocess.PIPE, text=True) for _ in range(2)]
     said = [process.communicate()[1] for process in both]
@@ -248,12 +248,12 @@ def test_a_combination_is_made_once_by_two_processes_and_again_where_its_file_is
     whole = made.read_bytes()
     made.write_bytes(whole[: len(whole) // 2])
     again = run(*pair, "--phi-deg", "0", MESHWRIGHT_CACHE=str(tmp_path))
-    assert "first use" in again.stderr and made.read_bytes() == whole
+    assert "made anew" in again.stderr and made.read_bytes() == whole
     assert "first use" not in run(*pair, "--phi-deg", "0", MESHWRIGHT_CACHE=str(tmp_path)).stderr
 
 
 def test_without_derive_the_remedy_is_named(tmp_path, monkeypatch):
-    monkeypatch.setenv(drives.CACHE, str(tmp_path))
+    monkeypatch.setenv(cache.CACHE, str(tmp_path))
     monkeypatch.setattr(first_use.importlib.util, "find_spec", lambda name: None)
     with pytest.raises(LibraryError, match=r"meshwright\[derive\]"):
         drives.folder_of("spherical_spur_convex")

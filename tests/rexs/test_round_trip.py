@@ -1,11 +1,12 @@
 """Designs through REXS files and files through designs: the mapped keys to 1e-12, foreign parts to the byte."""
 
 import math
+import random
 
 import pytest
 
 from meshwright.design import design as designs
-from meshwright.rexs.document import parsed
+from meshwright.rexs.document import RexsError, parsed
 from meshwright.rexs.writing import file_of
 from tests.rexs.designs import CROSSED, HELICAL, PAIRS, complete, file_text, named, read_text, worm_pair
 
@@ -67,7 +68,7 @@ def test_foreign_parts_stay_to_the_byte():
     read = read_text(text)
     again = file_of(read.tables, "0", parsed(text.encode(), "FILE.rexs")).content.decode()
     assert again == text
-    foreign = {(e["component"], e["attribute"]) for e in read.report["unmapped"]}
+    foreign = {(e["component"], e["attribute"]) for e in read.report["unmapped"] if "component" in e}
     assert {("lubricant", "density_at_15_degree_celsius"), ("worm_gear", "length_worm_gear")} <= foreign
 
 
@@ -88,6 +89,48 @@ def test_what_the_file_has_no_place_for_is_added():
     assert not [line for line in old if line not in lines]
     assert lines.count('      <attribute id="flank_form" unit="none">zk</attribute>') == 1
     assert read_text(again).tables["design"] == changed["design"]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_what_a_file_does_not_hold_is_in_the_report_of_who_reads_it(seed):
+    """Flank modifications, errors of assembly, …: a random part of the keys that REXS lacks."""
+    chance = random.Random(seed)
+    lost = {"pinion_lead_crowning_um": 5.0, "wheel_profile_crowning_um": -3.25, "pinion_flank_twist_um": 1e-5}
+    lost = dict(chance.sample(sorted(lost.items()), chance.randint(1, 3)))
+    tables = HELICAL | {"design": HELICAL["design"] | lost}
+    text = file_text(tables)
+    report = read_text(text).report
+    said = {e["key"]: e["reason"] for e in report["unmapped"] if "key" in e}
+    for key, value in lost.items():
+        assert repr(value) in said[f"design.{key}"] and "not written" in said[f"design.{key}"]
+    taken = tables | {"design": HELICAL["design"] | dict.fromkeys(lost, 1.5)}
+    again = file_of(taken, "0", parsed(text.encode(), "FILE.rexs")).content.decode()
+    assert again.count("left out of this file") == 1 and '"design.' + next(iter(lost)) + '": 1.5' in again
+    begins = "left out of this file: "
+    damaged = text.replace(begins + "{", begins + chance.choice(("{{", "[", "[1] ", "")), 1)
+    with pytest.raises(RexsError, match="remark on what was left out: damaged; remove it"):
+        read_text(damaged)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_every_attribute_of_a_file_is_mapped_or_reported(seed):
+    """Those of load cases and of what else a file may hold, at any depth, as many as there are."""
+    chance = random.Random(seed)
+    names = [f"speed_{k}" for k in range(chance.randint(1, 9))]
+    cases = "".join(
+        f'<load_case id="{k}"><component id="2"><attribute id="{name}">{k}</attribute></component></load_case>'
+        for k, name in enumerate(names)
+    )
+    spectrum = f'<load_spectrum id="7">{cases}<x><attribute id="odd"/></x></load_spectrum>'
+    text = file_text(HELICAL).replace("</components>", f"</components>{spectrum}")
+    report = read_text(text).report
+    said = {e["attribute"]: e for e in report["unmapped"] if e.get("attribute") in {*names, "odd"}}
+    assert {*said} == {*names, "odd"}
+    assert said[names[0]]["reason"].startswith("under load spectrum 7, load case 0, component 2")
+    assert said[names[0]]["component"] == parsed(text.encode(), "").components["2"].type
+    held = {(e["id"], e["attribute"]) for e in (*report["mapped"], *report["unmapped"]) if "component" in e}
+    listed = {(c.id, a) for c in parsed(text.encode(), "").components.values() for a in c.attributes}
+    assert listed <= held
 
 
 def test_byte_order_mark_and_no_namespace():

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq, minimize
 
 from meshwright import Drive
 from meshwright.cli import main
@@ -161,6 +162,42 @@ def test_balls_of_a_single_thread_lie_half_an_axial_pitch_apart():
     (found,) = sizes(drive, "pinion", [3.5])
     lead = 2 * math.pi * 1.0 / math.cos(math.radians(3.0))
     assert found.size == pytest.approx(math.hypot(2 * found.centre_radius, lead / 2) + 3.5, abs=1e-9)
+
+
+def _resting_between_straight_edges(ball):
+    """Centre radius of a ball in a ZN groove (one thread, m_n 2, 3° lead angle, 10° edges, half a pitch wide, normal to
+    it, but for 8 mm · tan 10° that the pitch line's shift takes), from the formula of its edge alone: the nearest point
+    of one flank is half a ball off.
+    """
+    lead_angle, pressure_angle, half = math.radians(3.0), math.radians(10.0), 0.5 * ball
+    width = 0.5 * math.pi - 4.0 * math.tan(pressure_angle)
+    apex = math.sqrt(1.0 / math.sin(lead_angle) ** 2 - (width * math.sin(lead_angle)) ** 2)
+    apex -= width / math.tan(pressure_angle)
+    pitch = 1.0 / math.cos(lead_angle)
+
+    def apart(centre):
+        def distance(place):
+            along, turn = place
+            x = apex + along * math.cos(pressure_angle)
+            across = along * math.sin(pressure_angle)
+            y, z = -across * math.sin(lead_angle), across * math.cos(lead_angle) + pitch * turn
+            point = x * math.cos(turn) - y * math.sin(turn), x * math.sin(turn) + y * math.cos(turn), z
+            return math.dist(point, (centre, 0.0, 0.0))
+
+        start = (centre - apex) / math.cos(pressure_angle), 0.0
+        return minimize(distance, start, method="Nelder-Mead", options={"xatol": 1e-12, "fatol": 1e-14}).fun - half
+
+    return brentq(apart, apex + 1.01 * half, apex + 8.0 * half, xtol=1e-12)
+
+
+@pytest.mark.parametrize("ball", [2.0, *np.random.default_rng(4).uniform(1.0, 5.0, 3)])
+def test_a_ball_rests_on_the_tooth_not_on_another_sheet_of_its_surfaces(ball):
+    """Neither a tip nor a face of this worm is given, and what contact uses of its flanks faces no other flank; the
+    straight edges go on through the axis, where a ball of this size touches both once more.
+    """
+    (found,) = sizes(Drive.load("recess-action-full"), "pinion", [ball])
+    assert found.centre_radius == pytest.approx(_resting_between_straight_edges(ball), abs=1e-8)
+    assert (found.contacts[:, 0] > 0.0).all()
 
 
 def test_a_ball_in_a_wheel_touches_both_flanks_and_cuts_neither(involute):

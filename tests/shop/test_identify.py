@@ -1,14 +1,17 @@
 """Errors of settings found from measured flanks: exact columns, honest spreads, what cannot be told apart."""
 
+import contextlib
 import json
 import math
+import re
 import tomllib
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.optimize import root
 
-from meshwright import Drive
+from meshwright import Drive, UsageError
 from meshwright.cli import main
 from meshwright.shop.identify import Parameters
 from meshwright.shop.nominal import nominal
@@ -193,6 +196,45 @@ def test_the_other_hand_has_the_same_errors(points, clean):
     found = Parameters.at(left, "wheel", there, KEYS)
     own = Parameters.at(Drive.load("plain-za"), "wheel", mirrored, KEYS)
     assert found.columns == pytest.approx(own.columns * [1, 1, 1, 1, -1], abs=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_place_that_is_given_twice_is_refused_not_counted_twice(seed, drive, points, clean):
+    """A row once more, as it is, with another deviation, or under another name; it would halve the variance."""
+    chance = np.random.default_rng(seed)
+    k, at = chance.integers(len(points.tooth), size=2)
+    rows = np.insert(np.arange(len(points.tooth)), at, k)
+    again = replace(points.of(rows), deviations=chance.normal(0.0, 1e-3, len(rows)))
+    if seed % 2:
+        again.i[at] += 50
+    with pytest.raises(UsageError, match=f"tooth {points.tooth[k]}, {points.flank[k]} flank, .*: the same place as"):
+        Parameters.at(drive, "wheel", again, KEYS)
+
+
+@pytest.mark.parametrize("sigma", ["1e-12", "1e-6", "1e-300", "1e300", "5e-324"])
+def test_where_nothing_is_left_to_trust_it_is_said(sigma, tmp_path, points, clean, capsys):
+    (tmp_path / "m.csv").write_text(csv_text(replace(points, deviations=clean), {}))
+    with contextlib.suppress(SystemExit):
+        words = ["--measured", str(tmp_path / "m.csv"), "--parameters", "pose.axial_mm", "--sigma-um", sigma]
+        assert main(["identify", "plain-za", "--member", "wheel", *words]) == 2
+    said = capsys.readouterr().err
+    assert re.search(r"--sigma-um:? [\d.e+-]+: (no point lies within|smaller than|larger than)", said)
+
+
+def test_points_of_another_design_or_member_are_named(tmp_path, capsys, points, clean):
+    """Flanks that differ by less than a measurement resolves, and a pair in which only another size is other."""
+    label = {"design": Drive.load("plain-za").design.label, "member": "wheel"}
+    (tmp_path / "m.csv").write_text(csv_text(replace(points, deviations=clean), label))
+    words = ["--measured", str(tmp_path / "m.csv"), "--parameters", "pose.rotation_arcsec", "--json", "-"]
+    command = ["identify", "plain-za", "--member", "wheel", *words]
+    notes = []
+    for change in ("flank='left'", "design.pressure_angle_deg=20.00005", "blank.worm_tip_radius_mm=24.5"):
+        assert main([*command, "--set", change]) == 0
+        notes.append([w for w in json.loads(capsys.readouterr().out)["warnings"] if label["design"] in w])
+    assert not notes[0] and len(notes[1]) == len(notes[2]) == 1
+    assert "µm off" in notes[1][0] and "µm off" not in notes[2][0]
+    assert main([*command, "--member", "pinion"]) == 2
+    assert "the file says that its points are of the wheel" in capsys.readouterr().err
 
 
 BAD = {

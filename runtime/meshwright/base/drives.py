@@ -15,7 +15,7 @@ from pathlib import Path
 from meshwright.base.errors import UsageError
 
 SHIPPED = Path(__file__).parent.parent / "_generated"
-ENVIRONMENT, CACHE, GROUP = "MESHWRIGHT_DRIVES", "MESHWRIGHT_CACHE", "meshwright.drives"
+ENVIRONMENT, GROUP = "MESHWRIGHT_DRIVES", "meshwright.drives"
 
 
 def get_include():
@@ -104,9 +104,3 @@ def object_of(name, places=None, kind=""):
     from meshwright.base.first_use import compiled
 
     return compiled(name, folder, kind)
-
-
-def cache_folder():
-    """The folder of what is made on first use; it need not exist."""
-    home = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    return Path(os.environ.get(CACHE) or Path(home) / "meshwright")

@@ -1,12 +1,14 @@
 """What is made on first use: a drive that no folder holds is derived, one without its shared object is compiled.
 
-Both are kept in the cache (``MESHWRIGHT_CACHE``, else ``$XDG_CACHE_HOME/meshwright`` or ``~/.cache/meshwright``).
+Both are kept in the cache (``MESHWRIGHT_CACHE``, else ``$XDG_CACHE_HOME/meshwright`` or ``~/.cache/meshwright``), which
+must be the user's own (:mod:`meshwright.base.cache`).
 """
 
 import importlib.util
 import json
 import os
 import shutil
+import stat
 import subprocess
 import sys
 import tempfile
@@ -15,7 +17,8 @@ from pathlib import Path
 
 from meshwright.base import compile as build
 from meshwright.base import files
-from meshwright.base.drives import CACHE, SHIPPED, cache_folder
+from meshwright.base.cache import CACHE, PRIVATE, cache_folder, not_own, say
+from meshwright.base.drives import SHIPPED
 from meshwright.base.errors import LibraryError
 
 #: File of a folder of the cache that lists what is in it.
@@ -99,16 +102,18 @@ def _kept(entry, what, make):
     with _locked(place.with_name(f"{entry}.lock")):
         if _whole(place):
             return place
-        print(f"meshwright: {what} (first use; kept in {place})", file=sys.stderr, flush=True)
+        say(f"{what} ({'damaged or not yours alone: made anew' if place.exists() else 'first use'}; kept in {place})")
         with tempfile.TemporaryDirectory(dir=place.parent, prefix=f".{entry}.") as beside:
             fresh = Path(beside) / "fresh"
-            fresh.mkdir()
+            fresh.mkdir(PRIVATE)
             try:
                 make(fresh)
             except build.CompileError as error:
                 raise LibraryError(str(error)) from None
             (fresh / SEAL).write_text(json.dumps(_sums(fresh), indent=1), encoding="utf-8")
-            if place.exists():
+            for path in fresh.rglob("*"):
+                path.chmod(stat.S_IMODE(path.stat().st_mode) & ~(stat.S_IWGRP | stat.S_IWOTH))
+            if os.path.lexists(place):
                 place.rename(Path(beside) / "damaged")
             fresh.rename(place)
     return place
@@ -121,8 +126,10 @@ def _sums(folder):
 
 
 def _whole(folder):
-    """Whether a folder of the cache is as it was written."""
+    """Whether a folder of the cache is as it was written, and the user's own with all that is in it."""
     try:
+        if not_own(folder) or any(map(not_own, folder.rglob("*"))):
+            return False
         return json.loads((folder / SEAL).read_text(encoding="utf-8")) == _sums(folder)
     except (OSError, ValueError):
         return False
@@ -131,7 +138,7 @@ def _whole(folder):
 def _cache():
     place = cache_folder()
     try:
-        place.mkdir(parents=True, exist_ok=True)
+        place.mkdir(PRIVATE, parents=True, exist_ok=True)
     except OSError as error:
         remedy = f"name a folder for built drives in {CACHE}"
         raise LibraryError(f"{place}: cannot be made ({error.strerror}); {remedy}") from error

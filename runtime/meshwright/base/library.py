@@ -3,17 +3,15 @@
 import contextlib
 import ctypes
 import hashlib
-import os
 import re
 import threading
 from functools import cache
-from importlib.machinery import SourceFileLoader
-from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
 
 import numpy as np
 
-from meshwright.base.drives import SHIPPED, cache_folder, folders, object_of
+from meshwright.base.cache import cache_folder, read_sealed, say, write_sealed
+from meshwright.base.drives import SHIPPED, folders, object_of
 from meshwright.base.errors import LibraryError
 
 #: Version of the model table (mw_model.h) that this package reads.
@@ -63,19 +61,21 @@ def _parsed():
         declarations = _interface()
     except OSError:  # nothing is built yet; whoever loads the library is told so
         declarations = ""
-    kept = cache_folder() / f"interface-{hashlib.sha256(declarations.encode()).hexdigest()[:32]}.py"
+    kept = cache_folder() / f"interface-{hashlib.sha256(declarations.encode()).hexdigest()[:32]}.sealed"
     try:
-        return _executed(kept)
-    except (OSError, AttributeError, SyntaxError, ImportError, TypeError, ValueError):
-        return _written(declarations, kept)
+        return _executed(read_sealed(kept, declarations))
+    except OSError:
+        pass
+    except ValueError as error:
+        say(f"{kept}: {error}; made anew")
+    return _written(declarations, kept)
 
 
-def _executed(place):
-    """The interface that was kept at ``place``; Python keeps its compiled form beside it."""
-    loader = SourceFileLoader("meshwright_interface", str(place))
-    module = module_from_spec(spec_from_loader(loader.name, loader))
-    loader.exec_module(module)
-    return module.ffi
+def _executed(source):
+    """The interface that Python's ``source`` (bytes), written by cffi, makes."""
+    names = {}
+    exec(compile(source, "interface", "exec"), names)
+    return names["ffi"]
 
 
 def _written(declarations, place):
@@ -91,13 +91,10 @@ def _written(declarations, place):
     with tempfile.TemporaryDirectory() as folder:
         written = Path(folder) / "interface.py"
         make_py_source(made, "interface", str(written))
-        with contextlib.suppress(OSError):  # a cache that cannot be written costs time, nothing else
-            place.parent.mkdir(parents=True, exist_ok=True)
-            handle, temporary = tempfile.mkstemp(dir=place.parent, prefix=".interface.")
-            with os.fdopen(handle, "w", encoding="utf-8") as stream:
-                stream.write(written.read_text(encoding="utf-8"))
-            os.replace(temporary, place)
-        return _executed(written)
+        source = written.read_bytes()
+    with contextlib.suppress(OSError):  # a cache that cannot be written costs time, nothing else
+        write_sealed(place, declarations, source)
+    return _executed(source)
 
 
 ffi = _parsed()

@@ -15,6 +15,7 @@ from meshwright.commands.progress import progress
 from meshwright.design import design as designs
 from meshwright.design.description import table_and_key
 from meshwright.shop.identify import POSE, Parameters, words
+from meshwright.shop.located import other_design
 from meshwright.shop.tables import read_csv
 
 
@@ -48,7 +49,7 @@ def run(options):
         parameters = Parameters.at(drive, options.member, points, keys, held, _tolerances(options.tolerance))
         step(f"{len(keys)} parameters")
         found = parameters.fit(points.deviations, sigma)
-    warnings = _warnings(drive, points)
+    warnings = [*_warnings(drive, points, parameters.flanks)]
     if options.toml:
         write_text(options.toml, designs.toml_text(_corrected(parameters, found)))
     if options.json:
@@ -67,8 +68,10 @@ def _tolerances(texts):
     return found
 
 
-def _warnings(drive, points):
-    """What makes the measurement too poor, whatever the numbers say."""
+def _warnings(drive, points, flanks):
+    """What makes the measurement too poor or another one than is meant, whatever the numbers say."""
+    if other := other_design(drive, points, flanks.off):
+        yield other
     if len(set(points.flank)) == 1:
         apart = drive.design.description["flanks_apart"]
         remedy = "here each flank is a design of its own" if apart else "measure both flanks"

@@ -45,6 +45,8 @@ def run(options):
     drive = loading.checked_drive(options)
     angles = common.angles_of(options, drive)
     points = _measured(options)
+    if points is not None:
+        common.say_other_design(drive, points)
     with progress(len(angles) + STEPS) as step:
         gear, document = solved(fe, options, drive, angles, step, points)
     if options.json:

@@ -43,6 +43,9 @@ def checked_drive(options):
     """The drive that the options ask for, with a load that can be asked for."""
     if not (np.isfinite(options.torque_nm) and options.torque_nm > 0.0):
         raise UsageError(f"--torque-nm {options.torque_nm:g}: the torque must be above zero; --torque-on says on what")
+    for option, value in (("--torque-nm", options.torque_nm), ("--rim-mm", options.rim_mm)):
+        if value is not None and (reason := common.beyond_arithmetic(value)):
+            raise UsageError(f"{option} {value:g}: {reason}")
     if options.pairs is not None and not 1 <= options.pairs <= 9:
         raise UsageError(f"--pairs {options.pairs}: choose 1 to 9 pairs")
     return common.drive_of(options)

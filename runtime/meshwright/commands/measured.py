@@ -42,6 +42,7 @@ def run(options):
         step("measured flanks")
         found = measured(drive, options.member, points)
         contact = _contact(drive, options, points, step) if options.contact else None
+    common.say_other_design(drive, points)
     if options.json:
         write_json(options.json, document(found) | {"contact": contact and _plain(*contact)})
     else:

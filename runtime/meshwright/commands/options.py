@@ -3,11 +3,10 @@
 import argparse
 import re
 import sys
-import tomllib
 
 import numpy as np
 
-from meshwright.base.errors import UsageError
+from meshwright.base.errors import DesignError, UsageError
 from meshwright.contact.analysis import largest_angle
 from meshwright.contact.friction import Friction
 from meshwright.design import description, outline
@@ -36,8 +35,8 @@ def setting(text):
     if not equals or not place:
         raise UsageError(f"--set {text}: not TABLE.KEY=VALUE; for example --set misalignment.vertical_deg=0.05")
     try:
-        return place.strip(), tomllib.loads(f"value = {value}")["value"] if "\n" not in value else value
-    except (ValueError, RecursionError):  # text without quotes, or what no number or table can be
+        return place.strip(), designs.parsed(f"value = {value}", "--set")["value"] if "\n" not in value else value
+    except DesignError:  # text without quotes, or what no number or table can be
         return place.strip(), value.strip()
 
 
@@ -89,10 +88,31 @@ def say_proportions(drive):
         print("the flanks meet at none of these angles; first to look at:", *told, sep="\n  ", file=sys.stderr)
 
 
+#: Magnitudes of an option's number, in its own unit, outside which products and quotients of it leave double precision.
+SMALLEST, LARGEST = 1e-12, 1e12
+
+
+def beyond_arithmetic(value):
+    """Why a number is not computed with, empty if it is: it is neither 0 nor of a magnitude that can be."""
+    if 0.0 < abs(value) < SMALLEST:
+        return f"smaller than {SMALLEST:g}; choose a larger number"
+    return f"larger than {LARGEST:g}; choose a smaller number" if abs(value) > LARGEST else ""
+
+
+def say_other_design(drive, points):
+    """On standard error, that measured points were written for another design than this one, if they were."""
+    from meshwright.shop.located import other_design
+
+    if other := other_design(drive, points):
+        print(f"note: {other}", file=sys.stderr)
+
+
 def number(text):
     """A finite number, for an option."""
     if not re.fullmatch(_NUMBER, text) or not np.isfinite(value := float(text)):
         raise argparse.ArgumentTypeError(f"{text}: not a finite number")
+    if reason := beyond_arithmetic(value):
+        raise argparse.ArgumentTypeError(f"{text}: {reason}")
     return value
 
 
@@ -108,8 +128,8 @@ def key_and_size(option, text, example):
     key, _, size = text.partition("=")
     try:
         return key.strip(), positive(size.strip())
-    except argparse.ArgumentTypeError:
-        raise UsageError(f"{option} {text}: not KEY=SIZE with a size above zero; e.g. {example}") from None
+    except argparse.ArgumentTypeError as error:
+        raise UsageError(f"{option} {text}: not KEY=SIZE with a size above zero ({error}); e.g. {example}") from None
 
 
 def numbers(text, kind=number):

@@ -14,6 +14,7 @@ from meshwright.commands import loaded, loading
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
 from meshwright.cycle.pairs import Mesh
+from meshwright.design.schema import LARGEST_GAP
 
 FORMATS = ("pdf", "svg", "png")
 
@@ -45,6 +46,9 @@ def run(options):
         raise UsageError("report: nothing to write; give --html FILE, --figures FOLDER or both")
     drive, friction = common.drive_of(options), common.friction_of(options)
     marking = None if options.marking_um is None else options.marking_um / 1000.0
+    if marking is not None and marking > LARGEST_GAP:
+        most, given = 1000.0 * LARGEST_GAP, options.marking_um
+        raise UsageError(f"--marking-um {given:g}: must not be greater than {most:g}; choose a smaller value")
     sizes = dict(_misalignment(text) for text in options.misalign)
     angles = _loaded_angles(options, drive)
     Mesh.of(drive)  # the window of contact, which the copy needs as well

@@ -8,10 +8,11 @@ import os
 import sys
 from pathlib import Path
 
-from meshwright.base.errors import UsageError
+from meshwright.base.errors import UsageError, plain
 from meshwright.base.files import write_json, write_text
 from meshwright.design import design as designs
 from meshwright.rexs.document import read
+from meshwright.rexs.left_out import left_out
 from meshwright.rexs.measurements import points_of
 from meshwright.rexs.origin import line_of
 from meshwright.rexs.reading import design_of
@@ -40,7 +41,8 @@ def run(options):
         write_text(options.measured, csv_text(points, {"source": options.file, "member": options.member}))
     folder = Path.cwd() if options.toml == "-" else Path(options.toml).resolve().parent
     origin = line_of(os.path.relpath(Path(options.file).resolve(), folder), options.stage)
-    write_text(options.toml, origin + designs.toml_text(found.tables))
+    unheld = "".join(f"# not in the file: {plain(key)} = {value!r}\n" for key, value in left_out(document).items())
+    write_text(options.toml, origin + unheld + designs.toml_text(found.tables))
     if options.json:
         write_json(options.json, found.report)
     else:

@@ -1,6 +1,5 @@
 """Designs: read, checked and turned into the parameter vector of a drive."""
 
-import copy
 import hashlib
 import json
 import math
@@ -65,8 +64,31 @@ def _text(path):
         raise DesignError(str(path), None, f"not a TOML file: {error}", "save it as UTF-8") from error
 
 
+#: Most names that a key of a design file may join by dots: a design has tables of keys, no more, and the time that it
+#: takes to read a key grows with the square of their number.
+MOST_NAMES = 32
+
+_NAME = r"""(?:[\w-]++|"(?:[^"\\\n]|\\.)*+"?|'[^'\n]*+'?)"""
+_JOINED = rf"(?:[ \t]*+\.[ \t]*+{_NAME})"
+#: The parts of TOML text, found from left to right in one pass.
+_PARTS = re.compile(
+    "|".join(
+        (
+            r"#[^\n]*+",
+            r'"""[\s\S]*?"""',
+            r"'''[\s\S]*?'''",
+            rf"(?P<deep>{_NAME}{_JOINED}{{{MOST_NAMES},}}+)",
+            rf"{_NAME}{_JOINED}*+",
+            r"[\s\S]",
+        )
+    )
+)
+
+
 def parsed(text, place):
     """The tables of TOML text that was found at ``place``."""
+    if any(part["deep"] for part in _PARTS.finditer(text)):
+        raise _TooDeep(place)
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -74,7 +96,14 @@ def parsed(text, place):
     except ValueError as error:  # more digits than a number may have
         raise DesignError(str(place), None, f"a number that cannot be read: {error}", "write it shorter") from error
     except RecursionError as error:
-        raise DesignError(str(place), None, "nested too deeply", "a design has tables of keys, no more") from error
+        raise _TooDeep(place) from error
+
+
+class _TooDeep(DesignError):
+    """Tables in tables, or keys of many names."""
+
+    def __init__(self, place):
+        super().__init__(str(place), None, "nested too deeply", "a design has tables of keys, no more")
 
 
 def toml_text(tables):
@@ -91,15 +120,13 @@ def _toml(value):
 
 
 def changed(tables, changes):
-    """The tables with ``{"table.key": value}`` (or top-level ``"key"``) set."""
-    tables = copy.deepcopy(tables)
+    """The tables with ``{"table.key": value}`` (or top-level ``"key"``) set; what was given is left as it is."""
+    tables = {name: dict(entry) if isinstance(entry, dict) else entry for name, entry in tables.items()}
     for place, value in changes.items():
-        *parents, key = place.split(".")
-        target = tables
-        for parent in parents:
-            target = target.setdefault(parent, {})
-            if not isinstance(target, dict):
-                raise DesignError(place, value, f"{parent} is not a table", "write table.key=value")
+        table, _, key = place.rpartition(".")
+        target = tables.setdefault(table, {}) if table else tables
+        if not isinstance(target, dict):
+            raise DesignError(place, value, f"{table} is not a table", "write table.key=value")
         target[key] = value
     return tables
 

@@ -19,6 +19,10 @@ HANDS = ("right", "left")
 #: or measured reaches them, and beyond them double precision no longer resolves a contact.
 LARGEST = {"mm": 1e9, "um": 1e6, "deg": 360.0, "": 1e5}
 
+#: Largest length of the table [contact], mm: what lies between flanks that touch, or all but touch. Beyond it flanks
+#: are no paraboloids any more, and what is drawn of a separation, such as the ellipse, is no contact.
+LARGEST_GAP = 1.0
+
 #: Keys of a table that an error about another one names, most.
 FEW = 12
 
@@ -156,9 +160,10 @@ def _parameter(parameter: dict) -> Key:
 def bounds(parameter: dict) -> dict[str, float]:
     """Bounds of a number in the unit of its key, by the name of the comparison that holds: ``{"gt": 0.0}``.
 
-    Where the description leaves an end open, it is that of :data:`LARGEST`.
+    Where the description leaves an end open, it is that of :data:`LARGEST`, or :data:`LARGEST_GAP`.
     """
-    largest = LARGEST.get(parameter["key_unit"], 1e6)
+    gap = parameter["table"] == "contact" and parameter["key_unit"] == "mm"
+    largest = LARGEST_GAP if gap else LARGEST.get(parameter["key_unit"], 1e6)
     found = {"le": largest} | ({"ge": -largest} if parameter["lower"] is None else {})
     if parameter["lower"] is not None:
         found["ge" if parameter["lower_included"] else "gt"] = parameter["lower"] / parameter["factor"]

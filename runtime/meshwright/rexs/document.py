@@ -14,6 +14,9 @@ from meshwright.base.files import read_bytes
 
 LARGEST_FILE = 2**26
 
+#: How our remark on what was left out of a file begins.
+MARK = " meshwright, left out of this file: "
+
 NAMESPACE = "https://www.rexs.info"
 
 _DEEPEST = 32
@@ -74,13 +77,29 @@ class Relation:
 
 @dataclass
 class Document:
-    """A file: its bytes, components by id, and relations in their order."""
+    """A file: its bytes, components by id, relations in their order, and the bytes from start to end of our remark on
+    what was left out of it (:mod:`meshwright.rexs.left_out`), None if it has none.
+    """
 
     place: str
     source: bytes
     root: Element
     components: dict
     relations: list
+    remark: tuple[int, int] | None = None
+
+    def elsewhere(self):
+        """(owner, attribute) elements of attributes that are of no component of the file's own list, such as those of
+        load cases, each with the ids and tags of what it stands in.
+        """
+        own = {id(e) for c in self.components.values() for e in c.attributes.values()}
+        open_ = [(self.root, child, ()) for child in reversed(self.root.children)]
+        while open_:
+            owner, element, path = open_.pop()
+            if element.tag == "attribute" and id(element) not in own:
+                yield owner, element, path
+            within = (*path, " ".join(filter(None, (element.tag.replace("_", " "), element.attributes.get("id")))))
+            open_ += [(element, child, within) for child in reversed(element.children)]
 
 
 def read(path):
@@ -91,21 +110,22 @@ def read(path):
 
 def parsed(source, place):
     """The :class:`Document` of bytes that were found at ``place``."""
-    root = _Builder(source, place).root()
+    builder = _Builder(source, place)
+    root = builder.root()
     if root.tag != "model":
         raise RexsError(place, f"the root element is {root.tag!r}", "a REXS file is a <model>")
     version = root.attributes.get("version", "")
     if version.split(".")[0] != "2":
         raise RexsError(place, f"model, version = {version!r}: not REXS 2", "convert it to version 2.0")
     components = _components(root, place)
-    return Document(str(place), source, root, components, _relations(root, components, place))
+    return Document(str(place), source, root, components, _relations(root, components, place), builder.remark)
 
 
 class _Builder:
     """Elements from the events of expat."""
 
     def __init__(self, source, place):
-        self.source, self.place, self.open, self.found = source, place, [], None
+        self.source, self.place, self.open, self.found, self.remark = source, place, [], None, None
         parser = expat.ParserCreate(namespace_separator=" ")
         parser.buffer_text = True
         parser.XmlDeclHandler = self._declared
@@ -113,6 +133,7 @@ class _Builder:
         parser.StartElementHandler = self._start
         parser.EndElementHandler = self._end
         parser.CharacterDataHandler = self._text
+        parser.CommentHandler = self._commented
         self.parser = parser
 
     def root(self):
@@ -158,6 +179,11 @@ class _Builder:
             element.end = self._close(element.outer) + 1
         if not self.open:
             self.found = element
+
+    def _commented(self, text):
+        if text.startswith(MARK) and len(self.open) == 1:
+            start = self.parser.CurrentByteIndex
+            self.remark = start, self.source.index(b"-->", start) + 3
 
     def _text(self, text):
         self.open[-1].text += text

@@ -9,6 +9,7 @@ from meshwright.design import description as metadata
 from meshwright.design import design as designs
 from meshwright.rexs import values
 from meshwright.rexs.document import RexsError
+from meshwright.rexs.left_out import left_out, reported
 from meshwright.rexs.places import bound, exchanges, stage_of
 from meshwright.rexs.report import assumed_of, full, report, words_of
 
@@ -235,10 +236,22 @@ def _report(document, table, found, tables, symbols, doubts):
         {"component": c.type, "id": c.id, "attribute": name, "reason": _why_not(table, found, c, name)}
         for c in document.components.values() for name in c.attributes if (c.id, name) not in seen
     ]  # fmt: skip
+    unmapped += [
+        {"component": _kind_of(document, owner), "id": owner.attributes.get("id"),
+         "attribute": element.attributes.get("id"), "reason": f"under {', '.join(path)}: no part of a design"}
+        for owner, element, path in document.elsewhere()
+    ]  # fmt: skip
+    unmapped += reported(found.family, left_out(document), tables)
     unmapped += [{"component": c.type, "id": c.id, "attribute": None, "reason": "not of the stage that was read"}
                  for c in document.components.values() if c not in found.components.values()]  # fmt: skip
     doubtful = [entry if isinstance(entry, dict) else _doubt(found.family, entry) for entry in doubts]
     return report(mapped, unmapped, doubtful + assumed_of(found.family, tables, symbols, mapped, defaults=True))
+
+
+def _kind_of(document, owner):
+    """The type of the component that an element is or refers to, else its tag."""
+    component = document.components.get(owner.attributes.get("id")) if owner.tag == "component" else None
+    return owner.attributes.get("type") or (component.type if component else owner.tag)
 
 
 def _why_not(table, found, component, name):

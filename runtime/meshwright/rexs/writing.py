@@ -16,7 +16,8 @@ from meshwright.base.expression import value
 from meshwright.design import description as metadata
 from meshwright.design import design as designs
 from meshwright.rexs import values
-from meshwright.rexs.document import NAMESPACE, spliced
+from meshwright.rexs.document import NAMESPACE, parsed, spliced
+from meshwright.rexs.left_out import left_out, named_in, remark
 from meshwright.rexs.places import bound, stage_of
 from meshwright.rexs.report import assumed_of, full, place, report, words_of
 
@@ -74,7 +75,23 @@ def file_of(tables, version, into=None, stage=None):
         content, ids = _new(family, checked, texts, version)
     else:
         content, ids = _put_in(into, stage, family, checked, texts)
-    return Written(content, _report(family, checked, symbols, texts, refused, ids))
+    made = _report(family, checked, symbols, texts, refused, ids)
+    return Written(_remarked(content, checked, made["unmapped"]), made)
+
+
+def _remarked(content, checked, unmapped):
+    """The file's bytes with a remark on the keys that the design gives and the file does not hold; those stay that a
+    design of the file once had.
+    """
+    document = parsed(content, "the file")
+    keys = [entry["key"] for entry in unmapped if "key" in entry]
+    before = left_out(document)
+    values = before | named_in(checked, keys)
+    if values == before:
+        return content
+    text = remark(values)
+    place = (*document.remark, text.encode()) if document.remark else insertion(document, document.root, [text])
+    return spliced(content, [place])
 
 
 def _solved(tables, family, symbols):

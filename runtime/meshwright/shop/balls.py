@@ -7,7 +7,8 @@ Source of the arrangement in one plane: ISO 21771:2007, 8 (dimensions over balls
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -18,7 +19,16 @@ from meshwright.flank.mesh import mesh
 from meshwright.flank.sections import solved
 from meshwright.shop.nominal import flank_words, of_flank
 
-NEWTON_STEPS = 60
+NEWTON_STEPS = 20
+
+#: A contact is followed from one ball to another in steps of this many natural sizes of its parameters at the most, and
+#: of this share of the way at the least.
+FARTHEST = 0.25
+SMALLEST_STEP = 1e-4
+
+#: Pairs of sampled places that are looked at for a start, and starts that are tried.
+CANDIDATES = 200
+STARTS = 4
 
 #: A centre is found when the last step moves the contact points by less than this, mm.
 RESOLVED = 1e-11
@@ -75,22 +85,29 @@ def sizes(drive, member, balls, step=lambda text: None):
 
 @dataclass(frozen=True)
 class _Side:
-    """One flank of the space: ``turn`` (3, 3) from where it is drawn; sampled ``q`` (V, k), ``points``, ``normals``."""
+    """One flank of the space: ``turn`` (3, 3) from where it is drawn; ``whole`` (P, 3) points of it; where a ball may
+    touch ``q`` (V, k), ``points``, ``normals``, of a helicoid about the plane z = 0, wherever contact uses it.
+    """
 
     region: object
     turn: np.ndarray
+    whole: np.ndarray
     q: np.ndarray
     points: np.ndarray
     normals: np.ndarray
 
     @classmethod
-    def of(cls, region):
+    def of(cls, region, teeth):
         triangles = mesh(region, CELLS)
-        return cls(region, np.eye(3), triangles.parameters, triangles.points, triangles.normals)
+        pitch = _screw(triangles.points, triangles.normals)
+        q = triangles.parameters if math.isinf(pitch) else _about_plane(region, triangles, math.pi * pitch / teeth)
+        found = region.flank(q)
+        return cls(region, np.eye(3), triangles.points, q, found.points, found.normals)
 
     def turned(self, angle):
         turn = about_z(angle)[:3, :3]
-        return _Side(self.region, turn, self.q, self.points @ turn.T, self.normals @ turn.T)
+        whole, points, normals = (vectors @ turn.T for vectors in (self.whole, self.points, self.normals))
+        return replace(self, turn=turn, whole=whole, points=points, normals=normals)
 
     def offset(self, q, distance):
         """Centre (3,) at a distance above the point of q (k,), its slopes (3, k), conditions (c,) and theirs (c, k)."""
@@ -117,7 +134,7 @@ class _Space:
         right = drive.as_described
         drives = [of_flank(right, word) for word in flank_words(right)]
         teeth = drive.teeth(member)
-        first, second = (_Side.of(d.region(member)) for d in drives)
+        first, second = (_Side.of(d.region(member), teeth) for d in drives)
         steps = [second.turned(2.0 * math.pi * k / teeth) for k in ((0,) if teeth == 1 else (-1, 0, 1))]
         second = min(steps, key=lambda side: _gap(first, side))
         fillets = [_fillet(d, member) for d in drives]
@@ -166,34 +183,82 @@ class _Space:
                 return "it would touch where the flank is hollowed more sharply than the ball"
             points.append(side.turn @ side.region.flank(q).points[0])
         centre = self.sides[0].offset(places[0], distance)[0]
-        everything = np.concatenate([*(side.points for side in self.sides), self.others])
+        everything = np.concatenate([*(p for side in self.sides for p in (side.whole, side.points)), self.others])
         depth = distance - np.linalg.norm(everything - centre, axis=1).min()
         if depth > ROUNDING:
             return f"it would cut {depth:.3g} mm into the tooth elsewhere"
         return centre, np.array(points)
 
     def _solved(self, distance):
-        """Parameters (k,) of the contact on either side, by Newton's method from the sampled flanks; None if none."""
-        starts = [s.points + distance * s.normals for s in self.sides]
-        apart = np.linalg.norm(starts[0][:, None] - starts[1][None], axis=2) + np.abs(starts[0][:, None, 2])
-        near = np.unravel_index(np.nanargmin(apart), apart.shape)
-        q = [side.q[k].copy() for side, k in zip(self.sides, near, strict=True)]
-        count = [len(part) for part in q]
+        """Parameters (k,) of the contact of a ball of this radius on either side; None if none.
+
+        They are followed from a ball that all but rests on two of the sampled points: Newton's method alone may end on
+        another sheet of the surfaces, which the tooth does not have.
+        """
+        for q, radius in self._starts:
+            if (found := self._followed(q, radius, distance)) is not None:
+                return found
+        return None
+
+    @cached_property
+    def _starts(self):
+        """Pairs of sampled places that come nearest to one ball's contacts, each with the ball's radius."""
+        first, second = self.sides
+        way = first.points[:, None] - second.points[None]
+        apart = first.normals[:, None] - second.normals[None]
+        with np.errstate(all="ignore"):
+            radius = -np.einsum("abi,abi->ab", way, apart) / np.einsum("abi,abi->ab", apart, apart)
+            miss = np.linalg.norm(way + radius[..., None] * apart, axis=2)
+            off_plane = np.abs(first.points[:, None, 2] + radius * first.normals[:, None, 2])
+            order = np.argsort(np.where(radius > 0.0, miss + off_plane, np.inf), axis=None)[:CANDIDATES]
+        found, everything = [], np.concatenate([first.points, second.points, first.whole, second.whole])
+        for a, b in zip(*np.unravel_index(order, radius.shape), strict=True):
+            centre = first.points[a] + radius[a, b] * first.normals[a]
+            inside = radius[a, b] - np.linalg.norm(everything - centre, axis=1).min()
+            if np.isfinite(miss[a, b]) and inside <= miss[a, b] + ROUNDING:  # else there is a tooth between the two
+                found.append(((first.q[a], second.q[b]), float(radius[a, b])))
+        return found[:STARTS]
+
+    def _followed(self, q, before, distance):
+        """Parameters of the contact of a ball of the radius ``distance``, from places ``q`` where one of the radius
+        ``before`` comes near; None where they cannot be followed that far.
+        """
         scale = np.concatenate([side.region.chart.sizes for side in self.sides])
-        for _ in range(NEWTON_STEPS):
-            (c1, d1, g1, e1), (c2, d2, g2, e2) = (s.offset(p, distance) for s, p in zip(self.sides, q, strict=True))
-            residual = np.concatenate([c1 - c2, c1[2:], g1, g2])
-            matrix = np.zeros((len(residual), sum(count)))
-            matrix[:3, : count[0]], matrix[:3, count[0] :], matrix[3, : count[0]] = d1, -d2, d1[2]
-            matrix[4 : 4 + len(g1), : count[0]], matrix[4 + len(g1) :, count[0] :] = e1, e2
-            step = solved(matrix[None], residual[None])[0]
-            if not np.isfinite(step).all():
+        missed, at, step = self._residual(q, before)[0], 0.0, 1.0
+        while at < 1.0:
+            ahead = min(1.0, at + step)
+            found = self._corrected(q, before + ahead * (distance - before), (1.0 - ahead) * missed, scale)
+            if found is not None:
+                q, at, step = found, ahead, 2.0 * step
+            elif (step := 0.5 * (ahead - at)) < SMALLEST_STEP:
                 return None
-            step *= min(1.0, 0.25 / max(np.abs(step / scale).max(), 1e-300))
-            q = [q[0] - step[: count[0]], q[1] - step[count[0] :]]
-            if max(np.linalg.norm(d1 @ step[: count[0]]), np.linalg.norm(d2 @ step[count[0] :])) < RESOLVED:
+        return q
+
+    def _corrected(self, q, distance, missed, scale):
+        """Places near ``q`` at which the residual is ``missed``; None unless Newton's method goes straight to them."""
+        moved = math.inf
+        for _ in range(NEWTON_STEPS):
+            residual, matrix, slopes = self._residual(q, distance)
+            step = solved(matrix[None], (residual - missed)[None])[0]
+            before, moved = moved, np.abs(step / scale).max()
+            if not moved <= (FARTHEST if math.isinf(before) else 0.5 * before):
+                return None
+            parts = np.split(step, [len(q[0])])
+            q = [place - part for place, part in zip(q, parts, strict=True)]
+            if max(np.linalg.norm(slope @ part) for slope, part in zip(slopes, parts, strict=True)) < RESOLVED:
                 return q
         return None
+
+    def _residual(self, q, distance):
+        """How far centres above places ``q`` are apart and off the plane, and their conditions; slopes of all that, and
+        of either centre.
+        """
+        (c1, d1, g1, e1), (c2, d2, g2, e2) = (s.offset(p, distance) for s, p in zip(self.sides, q, strict=True))
+        residual, first = np.concatenate([c1 - c2, c1[2:], g1, g2]), len(q[0])
+        matrix = np.zeros((len(residual), first + len(q[1])))
+        matrix[:3, :first], matrix[:3, first:], matrix[3, :first] = d1, -d2, d1[2]
+        matrix[4 : 4 + len(g1), :first], matrix[4 + len(g1) :, first:] = e1, e2
+        return residual, matrix, (d1, d2)
 
 
 def _beyond(region, q):
@@ -201,6 +266,24 @@ def _beyond(region, q):
     values = zip(region.limits.names, region.limits.values(region.flank(q))[0], strict=True)
     least = min((value, name) for name, value in values if name != OPEN)
     return least[1] if least[0] < -ROUNDING else None
+
+
+def _about_plane(region, triangles, reach):
+    """Places (V, k) of a helicoid at the radii of its triangles, within ``reach`` (mm) of the plane z = 0 or as far as
+    the triangles go.
+    """
+    radii, heights = np.hypot(*triangles.points[:, :2].T), triangles.points[:, 2]
+    ends = np.clip([heights.min(), heights.max()], -abs(reach), abs(reach))
+    ends = np.abs(ends).max() * np.array([-1.0, 1.0])
+    spans = (radii.min(), radii.max()), ends
+    grid = np.meshgrid(*(np.linspace(*span, cells + 1) for span, cells in zip(spans, CELLS, strict=True)))
+    wanted = np.stack([values.ravel() for values in grid], axis=1)
+    near = [np.argmin((radii - radius) ** 2 + (heights - height) ** 2) for radius, height in wanted]
+    q = triangles.parameters[near]
+    factors = np.zeros((2, q.shape[1] + 4))
+    factors[[0, 1], [-1, -2]] = 1.0
+    q = region.flank.places(factors, region.chart.sizes, wanted, q)
+    return q[np.isfinite(q).all(axis=1)]
 
 
 def _gap(first, second):

@@ -16,7 +16,7 @@ from meshwright.base.library import library, pointer
 from meshwright.design import design as designs
 from meshwright.design.description import table_and_key
 from meshwright.drive import Drive
-from meshwright.shop.least_squares import Estimate, estimate
+from meshwright.shop.least_squares import DISTRUSTED, Estimate, estimate
 from meshwright.shop.located import along, located, rays
 
 ARCSEC = math.pi / 648000.0
@@ -128,7 +128,14 @@ class Parameters:
         weights = np.full(len(known), np.nan)
         weights[known] = found.weights
         found = replace(found, weights=weights, residuals=residuals)
-        trusted = known & ~(weights < 0.5)
+        trusted = known & ~(weights < DISTRUSTED)
+        if not trusted.any():
+            middle = 1e3 * float(np.nanmedian(np.abs(residuals)))
+            raise UsageError(
+                f"--sigma-um {1e3 * found.sigma:g}: no point lies within some standard deviations of what the "
+                f"parameters explain, and none is left to trust: the residuals are {middle:.3g} µm "
+                "in the middle; give the standard deviation of one measurement, or name more parameters"
+            )
         return Identification(
             self.keys, tuple(None if key in POSE else _nominal(self.drive, key) for key in self.keys), found,
             float(np.sqrt(np.mean(residuals[trusted] ** 2))), float(np.abs(residuals[trusted]).max()),

@@ -9,10 +9,13 @@ from meshwright.contact.placement import about_z
 from meshwright.flank.inside import NEWTON_STEPS
 from meshwright.flank.mesh import mesh
 from meshwright.flank.sections import solved
-from meshwright.shop.nominal import of_flank
+from meshwright.shop.nominal import flank_words, of_flank
 
 #: Nominal points of a file lie on the flanks of its design this well, mm.
 ON_FLANK = 1e-3
+
+#: Points that a file gives to 1e-6 mm are on their flank this well, mm.
+ROUNDED = 1e-6
 
 #: Cells across and along a flank, whose nodes start the search.
 CELLS = (24, 48)
@@ -61,7 +64,7 @@ def along(flank, start, found):
 @dataclass(frozen=True)
 class Flanks:
     """Measured points sorted by flank: for each word the drive, the rows (n,) of the points, their rays and parameters
-    (n, k).
+    (n, k). ``off`` is how far a nominal point is from its flank at the most, mm.
     """
 
     words: tuple[str, ...]
@@ -69,15 +72,20 @@ class Flanks:
     rows: tuple[np.ndarray, ...]
     rays: tuple[Rays, ...]
     parameters: tuple[np.ndarray, ...]
+    off: float
 
 
 def located(drive, member, points):
     """The :class:`Flanks` of :class:`~meshwright.shop.tables.Points`.
 
-    Raises :class:`~meshwright.base.errors.UsageError` naming the first point that is not on its flank.
+    Raises :class:`~meshwright.base.errors.UsageError` naming the first point that is not on its flank or is given
+    twice, and for points that their file says to be another member's.
     """
+    if (named := points.remarks.get("member", member)) != member:
+        raise UsageError(f"--member {member}: the file says that its points are of the {named}; name that member")
+    _refuse_repeated(points)
     words = tuple(dict.fromkeys(points.flank))
-    drives, rows, sorted_rays, parameters = [], [], [], []
+    drives, rows, sorted_rays, parameters, off = [], [], [], [], 0.0
     count = drive.teeth(member)
     for wrong in np.flatnonzero((points.tooth < 1) | (points.tooth > count)):
         raise UsageError(f"tooth = {points.tooth[wrong]}: the {member} has teeth 1 to {count}; correct the file")
@@ -92,15 +100,51 @@ def located(drive, member, points):
         facing = np.einsum("ni,ni->n", whole.flank(q).normals, ray.directions)
         for k in np.flatnonzero(~(np.abs(distance) < ON_FLANK) | ~(facing > 1.0 - 1e-6)):
             _refuse(points, own[k], distance[k], member)
+        off = max(off, float(np.abs(distance).max()))
         drives.append(side)
         rows.append(own)
         sorted_rays.append(ray)
         parameters.append(q)
-    return Flanks(words, tuple(drives), tuple(rows), tuple(sorted_rays), tuple(parameters))
+    return Flanks(words, tuple(drives), tuple(rows), tuple(sorted_rays), tuple(parameters), off)
+
+
+def _refuse_repeated(points):
+    """A place that is given twice would count twice, as if it were measured twice."""
+    flanks = np.unique(points.flank, return_inverse=True)[1]
+    for columns in ((points.i, points.j), points.points.T):
+        places = np.stack([points.tooth, flanks, *columns], axis=1)
+        _, first, which = np.unique(places, axis=0, return_index=True, return_inverse=True)
+        for k in np.flatnonzero(first[which.ravel()] != np.arange(len(places))):
+            again = _place(points, first[which.ravel()[k]])
+            raise UsageError(f"{_place(points, k)}: the same place as {again}; keep one of them, or their mean")
+
+
+def other_design(drive, points, off=0.0):
+    """A sentence about points whose file was not written for this design as it is, empty if it was.
+
+    ``off``: how far they are from the design's flanks at the most, mm.
+    """
+    said, label = points.remarks.get("design", ""), drive.design.label
+    words = (drive.design.tables["flank"],) if drive.design.description["flanks_apart"] else flank_words(drive)
+    known = {_digest(of_flank(drive, word).design.label) for word in words}
+    if off <= ROUNDED and (not said or _digest(said) in known):
+        return ""
+    file = f"says that its points are of {said}" if said else "does not say of which design its points are"
+    away = f", from which they are up to {1e3 * off:.2g} µm off" if off > ROUNDED else ""
+    return f"the file {file}; here they count from the flanks of {label}{away}: name the design of the part as made"
+
+
+def _digest(label):
+    """What distinguishes designs in a label of :attr:`~meshwright.design.design.Design.label`: its last word."""
+    return label.rpartition(" ")[2]
+
+
+def _place(points, k):
+    return f"tooth {points.tooth[k]}, {points.flank[k]} flank, i = {points.i[k]}, j = {points.j[k]}"
 
 
 def _refuse(points, k, distance, member):
-    place = f"tooth {points.tooth[k]}, {points.flank[k]} flank, i = {points.i[k]}, j = {points.j[k]}"
+    place = _place(points, k)
     off = f"{abs(distance):.3g} mm off" if np.isfinite(distance) and abs(distance) >= ON_FLANK else "not on"
     raise UsageError(
         f"{place}: the nominal point is {off} the flank of the {member} of this design, or its normal is not; measure "

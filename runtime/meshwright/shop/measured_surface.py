@@ -16,7 +16,6 @@ from meshwright.flank.sections import lengthwise, lengthwise_bending, lengthwise
 from meshwright.pattern.gap import smallest_margin
 from meshwright.shop.located import located
 from meshwright.shop.spline import Knots
-from meshwright.shop.tables import Points
 
 #: Points of a file are a grid if shares of the profile differ by less than this from line to line.
 REGULAR = 1e-4
@@ -65,10 +64,7 @@ class Field:
         rows = np.flatnonzero(own & (points.tooth == tooth))
         if not len(rows):
             raise UsageError(f"--tooth {tooth}: its {word} flank is not measured; name one of the file's teeth")
-        chosen = Points(
-            points.tooth[rows], tuple(points.flank[k] for k in rows), points.i[rows], points.j[rows],
-            points.points[rows], points.normals[rows], points.deviations[rows],
-        )  # fmt: skip
+        chosen = points.of(rows)
         shape = int(chosen.i.max()) + 1, int(chosen.j.max()) + 1
         order = np.full(shape, -1)
         order[chosen.i, chosen.j] = np.arange(len(rows))

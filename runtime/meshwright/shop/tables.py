@@ -8,7 +8,7 @@ of metal along the outward normal, empty where nothing is measured.
 import csv
 import io
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -26,7 +26,8 @@ LARGEST_FILE = 2**28
 @dataclass(frozen=True)
 class Points:
     """M points: ``tooth``, ``i`` (across), ``j`` (along) (M,) of int, ``flank`` (M,) of words, ``points`` and outward
-    ``normals`` (M, 3), ``deviations`` (M,) in mm, NaN where nothing is measured.
+    ``normals`` (M, 3), ``deviations`` (M,) in mm, NaN where nothing is measured. ``remarks`` are what their file
+    says of itself, by key.
     """
 
     tooth: np.ndarray
@@ -36,6 +37,14 @@ class Points:
     points: np.ndarray
     normals: np.ndarray
     deviations: np.ndarray
+    remarks: dict[str, str] = field(default_factory=dict)
+
+    def of(self, rows):
+        """Those of these rows."""
+        return Points(
+            self.tooth[rows], tuple(self.flank[k] for k in rows), self.i[rows], self.j[rows], self.points[rows],
+            self.normals[rows], self.deviations[rows], self.remarks,
+        )  # fmt: skip
 
 
 def csv_text(points, remarks, ball_radius=None):
@@ -76,7 +85,7 @@ def read_csv(path):
     if not rows:
         raise UsageError(f"{path}: holds no points; write one a line below the header")
     columns = dict(zip(COLUMNS, zip(*rows, strict=True), strict=True))
-    return _points(columns), remarks
+    return _points(columns, remarks), remarks
 
 
 def read_measured(path):
@@ -113,13 +122,14 @@ def _cell(path, number, name, text):
     return value
 
 
-def _points(columns):
+def _points(columns, remarks):
     def vectors(*names):
         return np.stack([np.array(columns[name]) for name in names], axis=1)
 
     return Points(
         np.array(columns["tooth"]), columns["flank"], np.array(columns["i"]), np.array(columns["j"]),
         vectors("x_mm", "y_mm", "z_mm"), vectors("nx", "ny", "nz"), np.array(columns["deviation_um"]) * 1e-3,
+        remarks,
     )  # fmt: skip
 
 
