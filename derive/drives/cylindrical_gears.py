@@ -12,6 +12,7 @@ import sympy as sp
 
 from derive.drives import cylindrical_gears_keys as k
 from derive.drives import outlines
+from derive.drives.cylindrical_gears_drawing import drawing
 from derive.drives.cylindrical_gears_keys import PINION, WHEEL, Gear
 from derive.drives.cylindrical_gears_rexs import EXCHANGE
 from derive.drives.rack_generated import body, fillet_margins, rolled, solid_teeth, undercut
@@ -144,6 +145,7 @@ def cylindrical_gears():
             for g in (PINION, WHEEL)
         },
         outline=outlines.cylindrical,
+        drawing=drawing(),
         sources=(
             Source("ISO", "ISO 21771, Gears: Cylindrical involute gears and gear pairs: Concepts and geometry", 2007),
             Source("F. L. Litvin, A. Fuentes", "Gear Geometry and Applied Theory", 2004, "chapters 13 to 16"),
@@ -246,7 +248,8 @@ def _start(teeth, phi_1, phi_2, error, definitions):
     turns = [let(f"nu_{t.gear.name}", turn, "angle of the common normal", "rad")
              for t, turn in zip(teeth, _turns(*normal), strict=True)]  # fmt: skip
     lengths = [_rolled_length(gear, turned) for gear, turned in ((PINION, s * phi_1 - turns[0]), (WHEEL, -turns[1]))]
-    wheel_turn = 2 * (sp.Add(*lengths) + m * x_sum * sp.sin(alpha) - distance * n[0]) / (
+    cut = PINION.shift + WHEEL.shift
+    wheel_turn = 2 * (sp.Add(*lengths) + cut * sp.sin(alpha) - distance * n[0]) / (
         m * sp.cos(alpha) * WHEEL.teeth.symbol
     )
     angle = let("phi", s * wheel_turn, "wheel angle", "rad")

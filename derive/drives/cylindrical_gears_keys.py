@@ -68,6 +68,7 @@ class Gear:
     teeth: Parameter
     helix_angle: Parameter
     profile_shift: Parameter
+    thickness_allowance: Parameter
     face_width: Parameter
     profile_crowning: Parameter
     profile_slope: Parameter
@@ -99,6 +100,7 @@ class Gear:
                       required=True),
             key("helix_angle_deg", "beta", "helix angle, right hand positive,", domain=(-sp.pi / 2, sp.pi / 2)),
             key("profile_shift_coefficient", "shift", "profile shift coefficient", default=0),
+            amount("thickness_allowance", "A_sn", "allowance of the normal tooth thickness"),
             key("face_width_mm", "b", "face width", domain=POSITIVE),
             amount("profile_crowning", "C_alpha", "profile crowning"),
             amount("profile_slope", "C_Halpha", "profile slope"),
@@ -113,9 +115,9 @@ class Gear:
     @property
     def parameters(self):
         return (
-            self.teeth, self.helix_angle, self.profile_shift, self.face_width, self.profile_crowning,
-            self.profile_slope, self.tip_relief.amount, self.tip_relief.radius, self.root_relief.amount,
-            self.root_relief.radius, self.lead_crowning, self.lead_slope, self.flank_twist,
+            self.teeth, self.helix_angle, self.profile_shift, self.thickness_allowance, self.face_width,
+            self.profile_crowning, self.profile_slope, self.tip_relief.amount, self.tip_relief.radius,
+            self.root_relief.amount, self.root_relief.radius, self.lead_crowning, self.lead_slope, self.flank_twist,
         )  # fmt: skip
 
     @property
@@ -155,13 +157,13 @@ class Gear:
 
     @property
     def shift(self):
-        """Profile shift x·m."""
-        return self.profile_shift.symbol * module.symbol
+        """Profile shift at which the rack cuts, x_E·m: deeper than the nominal x·m by what the allowance needs."""
+        return self.profile_shift.symbol * module.symbol + self.thickness_allowance.symbol * _cosine / (2 * _sine)
 
     @property
     def pointed(self):
         """Transverse tooth thickness over the diameter, as an angle, at the tip of the unmodified involute."""
-        x, z, r_b, r_a = self.profile_shift.symbol, self.teeth.symbol, self.base_radius, self.tip_radius.symbol
+        x, z, r_b, r_a = self.shift / module.symbol, self.teeth.symbol, self.base_radius, self.tip_radius.symbol
         tan_tip = root(r_a**2 - r_b**2) / r_b
         return (sp.pi / 2 + 2 * x * sp.tan(pressure_angle.symbol)) / z + self.involute - (tan_tip - sp.atan(tan_tip))
 
@@ -182,13 +184,13 @@ class Gear:
 
     def rules(self):
         """Standard addendum; the width of the pair. A relief that takes nothing off may begin in the middle."""
-        tip = self.reference_radius + self.shift + module.symbol
+        tip = self.reference_radius + self.profile_shift.symbol * module.symbol + module.symbol
         middle = root(self.base_radius**2 + self.rolling_radius((EDGE_START + self.edge_end) / 2) ** 2)
         return (
-            Rule(self.face_width.symbol, face_width.symbol),
-            Rule(self.tip_radius.symbol, tip),
+            Rule(self.face_width.symbol, face_width.symbol, "the width of the pair"),
+            Rule(self.tip_radius.symbol, tip, "addendum of one module, no tip shortening"),
             *(
-                Rule(relief.radius.symbol, only_where_zero(relief.amount.symbol, middle))
+                Rule(relief.radius.symbol, only_where_zero(relief.amount.symbol, middle), "nothing is taken off")
                 for relief in (self.tip_relief, self.root_relief)
             ),
         )
@@ -215,12 +217,12 @@ def _rounding():
 
 
 RULES = (
-    Rule(shaft_angle.symbol, PINION.helix_angle.symbol + WHEEL.helix_angle.symbol),
-    Rule(shaft_angle.symbol, sp.Integer(0)),
-    Rule(PINION.helix_angle.symbol, sp.Integer(0)),
-    Rule(WHEEL.helix_angle.symbol, shaft_angle.symbol - PINION.helix_angle.symbol),
-    Rule(dedendum.symbol, STANDARD_DEDENDUM * module.symbol),
-    Rule(rounding.symbol, _rounding()),
+    Rule(shaft_angle.symbol, PINION.helix_angle.symbol + WHEEL.helix_angle.symbol, "the sum of the helix angles"),
+    Rule(shaft_angle.symbol, sp.Integer(0), "parallel axes"),
+    Rule(PINION.helix_angle.symbol, sp.Integer(0), "spur gears"),
+    Rule(WHEEL.helix_angle.symbol, shaft_angle.symbol - PINION.helix_angle.symbol, "what the shaft angle asks for"),
+    Rule(dedendum.symbol, STANDARD_DEDENDUM * module.symbol, "ISO 53, profile A"),
+    Rule(rounding.symbol, _rounding(), "ISO 53, profile A, as far as the tip has room"),
     *PINION.rules(),
     *WHEEL.rules(),
 )

@@ -103,6 +103,7 @@ EXCHANGE = Exchange(
     absent=(
         ("flank", "REXS holds both flanks and does not say which one is analysed"),
         (place(k.rounding), "REXS has it with a tool, which is not written"),
+        *((place(gear.thickness_allowance), "allowances are not written") for gear in GEARS.values()),
         *((place(q), "flank modifications are not written") for gear in GEARS.values() for q in (
             gear.profile_crowning, gear.profile_slope, gear.tip_relief.amount, gear.tip_relief.radius,
             gear.root_relief.amount, gear.root_relief.radius, gear.lead_crowning, gear.lead_slope, gear.flank_twist,

@@ -107,6 +107,11 @@ def worm(tools):
             throat,
             Suggestion("blank.wheel_tip_radius_mm", (throat.symbol + m / 2,), "half a module beyond it", decimals=3),
             Suggestion(
+                "blank.wheel_tip_radius_mm", (throat.symbol + m / 4,),
+                "a quarter of a module beyond it: with profile shift the teeth end in a point sooner", decimals=3,
+                words=arc,
+            ),
+            Suggestion(
                 "blank.wheel_face_width_mm",
                 (sp.Min(chord * sp.Rational(4, 5), 2 * r_1 * sp.sin(SHEET_USED * sheet)),),
                 "four fifths of the chord of the worm's tip circle, at most what the hob's flank reaches",
@@ -122,7 +127,14 @@ def worm(tools):
     )  # fmt: skip
 
 
+#: Least product of a number of teeth and sin²α of the spherical families: away from its equator a convex gear is
+#: thinner, and undercut sooner than one with straight axes, for which the standard rack needs 2.
+ROOM_FOR_RACK = sp.Rational(33, 10)
+
+
 def spherical():
+    fewest = sp.sqrt(sp.Min(ROOM_FOR_RACK / sp.Min(z_1, z_2), sp.Rational(1, 2)))
+    steep = sp.atan2(fewest, sp.sqrt(1 - fewest**2)) * 180 / sp.pi
     return Outline(
         {"m": "module", "z": "teeth of the pinion : teeth of the wheel"},
         {"pinion_form": "convex", "wheel_form": "convex"},
@@ -130,12 +142,18 @@ def spherical():
             Suggestion("design.module_mm", (m,)),
             Suggestion("design.pinion_teeth", (z_1,), whole=True),
             Suggestion("design.wheel_teeth", (z_2,), whole=True),
-            Suggestion("design.pressure_angle_deg", (sp.Integer(20),), "ISO 53"),
+            Suggestion(
+                "design.pressure_angle_deg", (sp.Max(20, steep + sp.Rational(1, 2)),),
+                "20 (ISO 53), more for few teeth, so that the rack does not undercut them", decimals=0,
+            ),
             *(
                 suggestion
                 for own, mate, z, z_mate in (("pinion", "wheel", z_1, z_2), ("wheel", "pinion", z_2, z_1))
                 for suggestion in (
-                    Suggestion(f"design.{own}_sphere_radius_mm", (m * z / 2,), "the pitch radius", decimals=4),
+                    Suggestion(
+                        f"design.{own}_sphere_radius_mm", (m * z / 2,), "the pitch radius", decimals=4,
+                        words={f"{own}_form": ("convex",)},
+                    ),
                     Suggestion(
                         f"design.{own}_sphere_radius_mm", (m * z_mate,),
                         f"twice that of the {mate}, which lies in the hollow: contact in a point", decimals=4,

@@ -1,7 +1,8 @@
 """Print the table of families: what is known of every drive before it is derived.
 
 ``families.json``: ``families`` holds by name, in order, a ``parameters`` list without repeats, the ``exchange`` with
-other programs (:mod:`derive.exchange.rexs`) and the ``drives``: for each what its own description says
+other programs (:mod:`derive.exchange.rexs`), the ``drawing`` (:mod:`derive.emit.drawing`) and the ``drives``: for each
+what its own description says
 (:mod:`derive.emit.metadata`) of its name, title and variant, and its ``parameters``, as places in that list. Checks,
 JSON Schema and errors offer from it what is derived and compiled on first use.
 ``outline`` says how a first design is made (:mod:`derive.language.outline`), where the family has one.
@@ -11,7 +12,7 @@ import json
 
 import sympy as sp
 
-from derive.emit import metadata
+from derive.emit import drawing, metadata
 from derive.exchange import rexs
 from derive.language.description import prefix
 
@@ -28,14 +29,19 @@ def table(drives):
         common = shared(listed)
         families[name] = {
             "parameters": parameters, "exchange": common["exchange"], "drives": described, "outline": common["outline"],
+            "drawing": common["drawing"],
         }  # fmt: skip
     return {"schema": "meshwright.families/1", "families": families}
 
 
 def shared(drives):
-    """What the drives of a family have in common: ``exchange`` and ``outline``, None where none declares it."""
+    """What the drives of a family have in common: ``exchange`` and ``outline``, None where none declares it, and their
+    ``drawing`` (:mod:`derive.emit.drawing`).
+    """
     outline = next((drive.outline for drive in drives if drive.outline), None)
-    return {"exchange": rexs.table(drives), "outline": outline and _outline(outline())}
+    return {
+        "exchange": rexs.table(drives), "outline": outline and _outline(outline()), "drawing": drawing.table(drives)
+    }  # fmt: skip
 
 
 def _outline(outline):
@@ -58,17 +64,21 @@ def agrees(families, described, shared):
     known = [entry for entry in family["drives"] if entry["name"] == described["name"]]
     said = [{**entry, "parameters": [family["parameters"][k] for k in entry["parameters"]]} for entry in known]
     return said == [{key: described[key] for key in entry} for entry in known] != [] and (
-        shared["outline"] in (None, family["outline"])
+        shared["outline"] in (None, family["outline"]) and shared["drawing"] == family.get("drawing")
     )
 
 
 def text(families):
-    """The file of a table; an exchange, whose expressions are nested, takes a line."""
-    compact = {name: json.dumps(f["exchange"], ensure_ascii=False) for name, f in families["families"].items()}
-    marked = {name: family | {"exchange": f"@{name}"} for name, family in families["families"].items()}
+    """The file of a table; an exchange and a drawing, whose expressions are nested, take a line each."""
+    nested = "exchange", "drawing"
+    compact = {(name, kind): json.dumps(f[kind], ensure_ascii=False)
+               for name, f in families["families"].items() for kind in nested}  # fmt: skip
+    marked = {
+        name: f | {kind: f"@{name} {kind}" for kind in nested} for name, f in families["families"].items()
+    }
     written = json.dumps(families | {"families": marked}, indent=1, ensure_ascii=False) + "\n"
-    for name, line in compact.items():
-        written = written.replace(f'"exchange": "@{name}"', f'"exchange": {line}')
+    for (name, kind), line in compact.items():
+        written = written.replace(f'"{kind}": "@{name} {kind}"', f'"{kind}": {line}')
     return written
 
 

@@ -104,7 +104,7 @@ def identity(drive):
 
 def parameters(drive):
     """The parameters of a drive in the order of its parameter vector."""
-    return [_parameter(drive, p) for p in drive.parameters]
+    return [parameter(p) | {"tools": [use.word for use in drive.tools if p.key in use.keys]} for p in drive.parameters]
 
 
 def specification_hash(plan):
@@ -221,7 +221,8 @@ def _margins(margins):
     ]
 
 
-def _parameter(drive, p):
+def parameter(p):
+    """A key as plain data."""
     return {
         "name": p.symbol.name,
         "unit": p.symbol.unit,
@@ -237,7 +238,6 @@ def _parameter(drive, p):
         "integer": p.integer,
         "required": p.required,
         "choices": dict(p.choices),
-        "tools": [use.word for use in drive.tools if p.key in use.keys],
     }
 
 

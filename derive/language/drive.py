@@ -10,6 +10,7 @@ import sympy as sp
 
 from derive.language.chain import Motion
 from derive.language.definitions import Definitions
+from derive.language.drawing import Drawing
 from derive.language.functions import Function, LeastTeeth, ToolClearance
 from derive.language.origin import Cited, cited
 from derive.language.outline import Outline
@@ -254,7 +255,8 @@ class Drive:
     ``proportions`` are rules that complete a blank whose sizes the design leaves open, for what needs a whole blank;
     contact itself leaves them open. ``loading`` says how it is usually loaded, ``regrind`` how a resharpened tool
     enters, ``sources`` what its page follows, ``exchange`` what of it a neutral file holds
-    (:class:`~derive.exchange.rexs.Exchange`), ``outline`` the function that says how a first design is made.
+    (:class:`~derive.exchange.rexs.Exchange`), ``outline`` the function that says how a first design is made,
+    ``drawing`` what drawings state of it beside its keys.
     Contact begins on the side from which the driving pinion comes; on an ``ascending_path`` it begins at the smaller
     angle on either flank. ``flanks_apart``: each flank has a design of its own, so that no backlash follows.
     ``least_teeth``, by member, says how the least number of teeth without undercut is sought; ``tool_clearance`` what
@@ -304,6 +306,7 @@ class Drive:
     regrind: Regrind | None = None
     exchange: object = None
     outline: Callable[[], Outline] | None = None
+    drawing: Drawing | None = None
     sources: tuple[Source, ...] = ()
 
     def __post_init__(self) -> None:

@@ -76,7 +76,16 @@ _INTERFACE_UNITS: dict[str, tuple[str, sp.Expr]] = {
     "per_mm": ("1/mm", sp.S.One),
     "mm_per_rad": ("mm/rad", sp.S.One),
     "mm_per_rad2": ("mm/rad^2", sp.S.One),
+    "in": ("mm", sp.Rational(254, 10)),
+    "per_in": ("1/mm", sp.Rational(10, 254)),
 }
+
+#: Endings of keys → those of the keys for which they stand, and by what their numbers, in inner units, are larger.
+CONVERSIONS: tuple[tuple[str, str, sp.Expr], ...] = (
+    ("_in", "_mm", sp.S.One),
+    ("_diameter_mm", "_radius_mm", sp.Integer(2)),
+    ("_radius_mm", "_diameter_mm", sp.Rational(1, 2)),
+)
 
 
 #: Words of units that end no key of another unit: those above, and others that a key might be meant in.
@@ -156,10 +165,11 @@ def parameter(
 
 @dataclass(frozen=True)
 class Rule:
-    """``target`` = ``value`` unless the design gives the target. Rules run in order."""
+    """``target`` = ``value`` unless the design gives the target; ``why`` says so to readers. Rules run in order."""
 
     target: Quantity
     value: sp.Expr
+    why: str = ""
 
 
 @dataclass(frozen=True)

@@ -69,7 +69,7 @@ class Drive:
                 changes |= {f"{table}.{key}": value for key, value in entries.items()}
             else:
                 changes[table] = entries
-        tables = designs.changed(self.design.given(), changes)
+        tables = designs.changed(self.design.drawn or self.design.given(), changes)
         return Drive(designs.check(tables, self.design.places), self.backend)
 
     def of_design(self, design):
@@ -78,6 +78,12 @@ class Drive:
 
     def __repr__(self):
         return f"<{type(self).__name__} {self.design.label}, backend {self.backend}>"
+
+    def drawing(self):
+        """What a drawing of the design states: :class:`~meshwright.design.drawing.Sheet`."""
+        from meshwright.design.drawing import sheet
+
+        return sheet(self.design)
 
     @cached_property
     def as_described(self):

@@ -173,8 +173,10 @@ def test_a_first_design_gives_the_keys_of_a_tool_that_no_word_chooses():
     assert "design.profile_arc_radius_mm" in description.families()["cylindrical-worm"].unused({"worm_profile": "ZI"})
 
 
-#: Worms of every form; steep threads and hollow flanks are those whose wheels an edge meets first.
-WORMS = [f"--m 4 --z {z} --profile {form}" for form in ("ZI", "ZN", "ZA", "ZK", "ZC") for z in ("1:30", "2:40", "4:29")]
+#: Worms of every form; steep threads and hollow flanks are those whose wheels an edge meets first. The wheel of a
+#: hollow worm of one thread is undercut, and refused.
+WORMS = [f"--m 4 --z {z} --profile {form}" for form in ("ZI", "ZN", "ZA", "ZK") for z in ("1:30", "2:40", "4:29")]
+WORMS += [f"--m 4 --z {z} --profile ZC" for z in ("2:40", "4:29")]
 
 
 @pytest.mark.parametrize("words", quick(WORMS, "--m 4 --z 2:40 --profile ZC", "--m 4 --z 4:29 --profile ZN"))
@@ -225,18 +227,25 @@ def test_a_first_worm_pair_stands_at_the_centre_distance_asked_for(tmp_path, mon
 
 
 @pytest.mark.parametrize(("teeth", "undercut"), [(17, True), (18, False)])
-def test_new_says_where_a_tool_undercuts(tmp_path, monkeypatch, capsys, teeth, undercut):
+def test_new_writes_no_undercut_gear_unless_forced(tmp_path, monkeypatch, capsys, teeth, undercut):
     """A spur gear without profile shift whose rack's line ends a module below the pitch line: from 2/sin²20° = 17.1."""
     monkeypatch.chdir(tmp_path)
     plain = [f"--set=design.pinion_{kind}_crowning_um=0" for kind in ("lead", "profile")]
-    assert main(["new", "cylindrical-gears", "--m", "2", "--z", f"{teeth}:60", *plain, "--out", "first.toml"]) == 0
-    assert ("the tool undercuts the flank of the pinion" in capsys.readouterr().out) == undercut
+    words = ["new", "cylindrical-gears", "--m", "2", "--z", f"{teeth}:60", *plain, "--out", "first.toml"]
+    assert main(words) == (2 if undercut else 0)
+    assert ("the tool undercuts the flank of the pinion" in capsys.readouterr().err) == undercut
+    assert (tmp_path / "first.toml").exists() != undercut
+    if undercut:
+        assert main([*words, "--force"]) == 0
+        assert "the tool undercuts the flank of the pinion" in capsys.readouterr().out
 
 
 def test_a_size_of_ones_own_that_nothing_follows_is_said(tmp_path, monkeypatch, capsys):
     """Settings of a spiral bevel pair do not make a hypoid one because an offset is given."""
     monkeypatch.chdir(tmp_path)
-    assert main(["new", "bevel", "--m", "4", "--z", "15:44", "--set", "design.offset_mm=20", "--out", "b.toml"]) == 0
+    words = ["new", "bevel", "--m", "4", "--z", "15:44", "--set", "design.offset_mm=20", "--out", "b.toml"]
+    assert main(words) == 2 and not (tmp_path / "b.toml").exists()
+    assert main([*words, "--force"]) == 0
     shown = capsys.readouterr().out
     assert "design.offset_mm = 20: as given; no other size follows it" in shown and "careful: edge_contact" in shown
     assert "without design.offset_mm = 20 the flanks touch" in shown and "bevel-hypoid" in shown
@@ -255,12 +264,54 @@ def test_a_size_of_ones_own_that_nothing_follows_is_said(tmp_path, monkeypatch, 
 def test_a_size_of_ones_own_without_which_the_flanks_touch_is_named(tmp_path, monkeypatch, capsys, own, blamed):
     monkeypatch.chdir(tmp_path)
     settings = [f"--set={setting}" for setting in own]
-    assert main(["new", "cylindrical-worm", "--m", "4", "--z", "2:40", *settings, "--out", "w.toml"]) == 0
-    lines = [line for line in capsys.readouterr().out.splitlines() if line.startswith("without ")]
+    words = ["new", "cylindrical-worm", "--m", "4", "--z", "2:40", *settings, "--out", "w.toml"]
+    assert main(words) == (2 if blamed else 0)
+    lines = [line for line in capsys.readouterr().err.splitlines() if line.startswith("without ")]
     assert [line.split(" the flanks")[0] for line in lines] == ([f"without {blamed}"] if blamed else [])
 
 
+#: Pairs of words of a family, of which some are derived on first use. In a hollow only a convex tooth has room.
+PAIRS = ["convex:convex", "convex:spur", "spur:convex", "spur:spur", "concave:convex", "convex:concave"]
+
+
+@pytest.mark.parametrize("pair", quick(PAIRS, "convex:spur", "convex:concave"))
+def test_every_pair_of_words_whose_flanks_can_touch_gives_a_design(tmp_path, monkeypatch, pair):
+    monkeypatch.chdir(tmp_path)
+    assert main(f"new spherical --m 3 --z 30:50 --profile {pair} --out first.toml".split()) == 0
+
+
+@pytest.mark.parametrize("teeth", ["14:30", "20:40", "40:14"])
+def test_few_teeth_of_spherical_gears_are_given_room_for_the_rack(tmp_path, monkeypatch, teeth):
+    monkeypatch.chdir(tmp_path)
+    assert main(f"new spherical --m 3 --z {teeth} --out first.toml".split()) == 0
+
+
+#: Words and what they lead to: keys of the design that is written, in the units of the keys.
+DRAWN = {
+    "--z 23:47 --set design.normal_diametral_pitch_per_in=10": {"normal_module_mm": 2.54, "face_width_mm": 25.4},
+    "--m 3 --z 23:58 --set design.helix_angle_deg=14 --set design.pinion_hand=left --set design.pinion_span_teeth=4 "
+    "--set design.pinion_span_mm=32.1": {"pinion_helix_angle_deg": -14.0, "wheel_helix_angle_deg": 14.0},
+    "--m 2 --z 20:45 --a 66 --set design.normal_backlash_mm=0.1": {
+        "pinion_thickness_allowance_um": -50 / math.cos(math.radians(20))},
+    "--m 2 --z 20:45 --set design.transverse_module_mm=2.1": {
+        "pinion_helix_angle_deg": math.degrees(math.acos(2 / 2.1))},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("words", DRAWN)
+def test_a_first_design_is_asked_for_in_the_words_of_a_drawing(tmp_path, monkeypatch, words):
+    monkeypatch.chdir(tmp_path)
+    assert main(f"new cylindrical-gears {words} --out first.toml".split()) == 0
+    given = Drive.load("first.toml").design.tables["design"]
+    for key, value in DRAWN[words].items():
+        assert given[key] == pytest.approx(value, rel=2e-3), key  # profile shifts are rounded to 1e-4 modules
+
+
 REFUSED = {
+    "new cylindrical-gears --m 2 --z 20:-60": "wheel_teeth = -60: no drive of this family has an internal gear",
+    "new cylindrical-gears --m 2 --z 20:rack": "wheel_kind = 'rack': no drive of this family",
+    "new cylindrical-gears --m 2 --z 20:moon": "moon: no kind of wheel of this family",
+    "new cylindrical-gears --z 20:60": "--m: no module",
     "new cylindrical-wurm --m 4 --z 2:40": "did you mean 'cylindrical-worm'",
     "new cylindrical-worm --m 4 --z 2:40 --profile ZX": "no drive of this family has these words.*ZA, ZC, ZI, ZK, ZN",
     "new spherical --m 4 --z 20:40 --a 100": "centre distance of this family follows from its teeth",

@@ -47,10 +47,10 @@ DOCUMENT = Document(
     },
 )
 
-#: A gear's size, shift and place on the edge and across the face, in the letters of one gear.
+#: A gear's size, shift at which it is cut and place on the edge and across the face, in the letters of one gear.
 LETTERS = {
-    "z_1": "2*r*cos(beta_pinion)/m", "shift_pinion": "xm/m", "l_pinion": "l", "z_pinion": "Z", "beta_pinion": "beta",
-    "m": "4*h/pi",
+    "z_1": "2*r*cos(beta_pinion)/m", "shift_pinion": "(xm - A_sn_pinion*cos(alpha)/(2*sin(alpha)))/m",
+    "l_pinion": "l", "z_pinion": "Z", "beta_pinion": "beta", "m": "4*h/pi",
 }  # fmt: skip
 #: The profile's modification and its derivatives.
 PROFILE_LETTERS = {"E_pinion": "E_here", "E_pinion_l_pinion": "E_l", "E_pinion_z_pinion": "E_Z"}
@@ -232,7 +232,7 @@ reflect = mat([1, 0, 0], [0, -1, 0], [0, 0, 1])
         "plunged": gear(PLUNGE | {"C_Hbeta_pinion": "0"}, letters=FARTHER)["rack"],
         "fed": gear(FEED | {"C_beta_pinion": "0"})["rack"],
         "edge": Described("cylindrical_gears", {**UNMODIFIED, **PROFILE_LETTERS, **LETTERS, "shift_pinion": "0",
-                                                "beta_pinion": "0"}).edge("pinion"),
+                                                "A_sn_pinion": "0", "beta_pinion": "0"}).edge("pinion"),
         "spur": SPUR.edge("wheel"),
     },
 )  # fmt: skip

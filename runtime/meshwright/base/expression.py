@@ -96,3 +96,63 @@ def completed(rules: Any, symbols: Mapping[str, float]) -> dict[str, float]:
         if math.isnan(known[name]):
             known[name] = value(expression, known)
     return known
+
+
+def names(expression: Any) -> frozenset[str]:
+    """The names in an expression."""
+    if isinstance(expression, str):
+        return frozenset({expression})
+    parts = expression[1:] if isinstance(expression, list | tuple) else ()
+    return frozenset().union(*map(names, parts))
+
+
+def text(expression: Any) -> str:
+    """An expression as one writes it on a line: ``m*(pi/2 + 2*x*tan(alpha))``."""
+    return _text(expression, 0)
+
+
+#: How tightly an operation binds.
+_SUM, _PRODUCT, _POWER = 1, 2, 3
+
+
+def _text(expression: Any, around: int) -> str:
+    if not isinstance(expression, list | tuple):
+        whole = str(expression)
+        return f"({whole})" if whole.startswith("-") and around > _SUM else whole
+    operation, *operands = expression
+    if operation == "+":
+        parts = sorted((_text(term, _SUM) for term in operands), key=lambda part: part.startswith("-"))
+        written, binds = " + ".join(parts).replace("+ -", "- "), _SUM
+    elif operation == "*":
+        written, binds = _quotient(operands), _PRODUCT
+    elif operation == "/":
+        written, binds = f"{operands[0]}/{operands[1]}", _PRODUCT
+    elif operation == "^" and operands[1] == -1:
+        written, binds = _quotient([expression]), _PRODUCT
+    elif operation == "^":
+        written, binds = f"{_text(operands[0], _POWER)}^{_text(operands[1], _POWER)}", _POWER - 1
+    elif operation == "pi":
+        return "pi"
+    else:
+        return f"{operation}({', '.join(_text(o, 0) for o in operands)})"
+    return f"({written})" if around > binds else written
+
+
+def _quotient(factors: Any) -> str:
+    """A product, what has a negative power below the line."""
+    sign, above, below = "", [], []
+    for factor in factors:
+        match factor:
+            case ["sqrt", ["sign", _]]:
+                continue  # 1 where there is a value at all
+            case int() if factor < 0:
+                sign, above = "-", above + ([] if factor == -1 else [-factor])
+            case ["/", p, q]:
+                sign, above, below = ("-" if p < 0 else sign), above + ([] if abs(p) == 1 else [abs(p)]), [*below, q]
+            case ["^", base, -1]:
+                below.append(base)
+            case _:
+                above.append(factor)
+    over = "*".join(_text(f, _PRODUCT) for f in above) or "1"
+    under = "*".join(_text(f, _PRODUCT) for f in below)
+    return sign + over + (f"/({under})" if len(below) > 1 else f"/{_text(below[0], _POWER)}" if below else "")

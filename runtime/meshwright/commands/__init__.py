@@ -6,8 +6,8 @@ from importlib import import_module
 MODULES = {
     name: f"meshwright.commands.{name}"
     for name in (
-        "drives", "new", "show", "explain", "tca", "surface", "ratio", "limits", "loaded", "fe", "sweep", "report",
-        "live", "schema", "grid", "measured", "identify", "benchmark", "completion",
+        "drives", "new", "show", "explain", "drawing", "tca", "surface", "ratio", "limits", "loaded", "fe", "sweep",
+        "report", "live", "schema", "grid", "measured", "identify", "benchmark", "completion",
     )
 } | {"import": "meshwright.commands.rexs_import", "export": "meshwright.commands.export"}  # fmt: skip
 

@@ -1,6 +1,8 @@
 """Write a first design of a family from module and numbers of teeth: a commented TOML file to change from there.
 
-Sizes follow proportions that the family declares; each is written with the reason. --set gives any key its own value.
+Sizes follow proportions that the family declares; each is written with the reason. --set gives any key its own value,
+or any size of a drawing from which keys follow. Nothing is written where flanks do not touch or a tooth is undercut or
+pointed, unless --force says so.
 Members of a family that a first design is not are among the packaged ones: `meshwright drives` lists these and all
 keys, `meshwright show DESIGN` prints one to copy and change.
 """
@@ -20,9 +22,10 @@ from meshwright.base.files import write_text
 from meshwright.commands import options as common
 from meshwright.contact.flags import not_first
 from meshwright.contact.results import ON_FLANKS, impossible
-from meshwright.design import description
+from meshwright.design import description, schema
 from meshwright.design import design as designs
 from meshwright.design.outline import first_design
+from meshwright.design.relations import Completion
 from meshwright.drive import Drive
 from meshwright.flank.pointed import pointed
 from meshwright.limits.results import Request
@@ -31,7 +34,7 @@ from meshwright.limits.undercut import undercut_lines
 
 def add_arguments(parser):
     parser.add_argument("family", metavar="FAMILY", help="`meshwright drives` lists them")
-    parser.add_argument("--m", type=common.positive, required=True, metavar="M", help="module, mm")
+    parser.add_argument("--m", type=common.positive, metavar="M", help="module, mm; may follow from sizes of --set")
     parser.add_argument("--z", type=_teeth, required=True, metavar="Z1:Z2", help="threads or teeth of pinion and wheel")
     parser.add_argument("--a", type=common.positive, default=math.nan, metavar="A", help="centre distance, mm")
     parser.add_argument("--profile", metavar="WORD[:WORD]", help="words that choose the drive, in the family's order")
@@ -40,6 +43,7 @@ def add_arguments(parser):
     )
     parser.add_argument("--name", help="name of the design and, unless --out says otherwise, of the file")
     parser.add_argument("--out", metavar="FILE|-", help="default: NAME.toml; it must not exist")
+    parser.add_argument("--force", action="store_true", help="write a design that does not mesh, too")
     plain = parser.format_help
     parser.format_help = lambda: plain() + _offered()
 
@@ -65,23 +69,24 @@ def _offers(family):
 
 
 def _teeth(text):
-    match = re.fullmatch(r"([1-9]\d*):([1-9]\d*)", text)
+    match = re.fullmatch(r"([1-9]\d*):(-?[1-9]\d*|[a-z]+)", text)
     if not match:
         raise argparse.ArgumentTypeError(f"{text}: not two whole numbers Z1:Z2, for example 2:40")
-    return int(match[1]), int(match[2])
+    return int(match[1]), match[2] if match[2].isalpha() else int(match[2])
 
 
 def run(options):
     family = _family(options.family)
     words = _words(family, options.profile)
-    given = {"m": options.m, "z_1": options.z[0], "z_2": options.z[1], "a": options.a}
+    own = dict(common.setting(text) for text in options.set)
+    asked = {"m": options.m or math.nan, "z_1": options.z[0], "z_2": options.z[1], "a": options.a}
+    given, determined = _determined(family, asked, own)
     if math.isfinite(options.a) and "a" not in family.outline["options"]:
         raise UsageError(f"--a {options.a:g}: the centre distance of this family follows from its teeth; leave it out")
     name = options.name or "-".join([family.name, *words.values(), f"{options.z[0]}-{options.z[1]}"]).lower()
-    own = dict(common.setting(text) for text in options.set)
-    first = first_design(family, name, words, given, own)
+    first = first_design(family, name, words, given, own, determined)
     try:
-        designs.check(designs.parsed(first.text, name))
+        drive = _drive(first)
     except DesignError as error:
         asked = " ".join(f"--{key}" for key in family.outline["options"])
         refused = f"no design follows from {asked} by the family's proportions, unless --set changes them"
@@ -89,13 +94,43 @@ def run(options):
     place = options.out or f"{name}.toml"
     if place != "-" and Path(place).exists():
         raise UsageError(f"{place}: exists already; name another file with --out, or another --name")
+    touch, seen = _contact(drive)
+    blamed = []
+    if not touch:
+        blamed = [*_blamed(family, own, lambda kept: first_design(family, name, words, given, kept, determined))]
+        blamed = blamed or common.beside_proportions(drive)
+    cut = [*_pointed(drive), *_undercut(drive)]
+    seen = "\n".join([seen, *blamed, *cut])
+    if (cut or not touch) and not options.force:
+        raise UsageError(f"{place}: nothing written, --force writes it all the same\n{seen}")
     write_text(place, first.text)
     if place != "-":
-        touch, seen = _contact(drive := _drive(first))
-        blamed = () if touch else _blamed(family, own, lambda kept: first_design(family, name, words, given, kept))
-        seen = "\n".join([seen, *blamed, *_pointed(drive), *_undercut(drive)])
         write_text("-", _next_steps(place, first, seen, options.drives))
     return 0
+
+
+def _determined(family, asked, own):
+    """The options as they are, and the keys that follow from them and from one's ``own`` sizes, by "table.key"."""
+    drawing = family.drawing
+    places = {s["values"][0]: s["place"] for s in family.outline["suggestions"]
+              if len(s["values"]) == 1 and s["values"][0] in [*asked]}  # fmt: skip
+    sizes = {place: number for option, place in places.items() if (number := asked[option]) == number}
+    for option, word in asked.items():
+        if isinstance(word, str):
+            named = [place for place, p in drawing.places.items() if word in p["choices"]]
+            if not named:
+                raise UsageError(f"--z {word}: no kind of wheel of this family; give its number of teeth")
+            sizes |= {named[0]: word}
+            del sizes[places[option]]
+    tables = designs.changed({"drive": family.name}, sizes | own)
+    if error := drawing.refused(tables):
+        raise error
+    completion = Completion.of(drawing, schema.drawn(family.name, tables))
+    determined = completion.determined()
+    options = {option: determined.get(places.get(option), number) for option, number in asked.items()}
+    if math.isnan(options["m"]):
+        raise UsageError("--m: no module; give it, or a size from which it follows, by --set")
+    return options, {place: number for place, number in determined.items() if place not in own}
 
 
 def _drive(first):
@@ -137,8 +172,8 @@ def _undercut(drive):
     """A line for every member that its tool undercuts within the limits of its flank."""
     cut = Counter(line.member for line in undercut_lines(drive, Request()) if line.on_flank)
     return [
-        f"careful: the tool undercuts the flank of the {member}, at {count} places looked at: change a size first "
-        "(`meshwright explain undercut`, `meshwright limits` says where)"
+        f"careful: the tool undercuts the flank of the {member}, at {count} places looked at: give it more teeth or "
+        "another profile shift or pressure angle (`meshwright explain undercut`, `meshwright limits` says where)"
         for member, count in cut.items()
     ]
 

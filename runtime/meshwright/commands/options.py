@@ -78,13 +78,17 @@ def _degrees(text, words):
     return values
 
 
-def say_proportions(drive):
-    """On standard error, for flanks that meet nowhere: a handful of sizes that leave the family's proportions."""
+def beside_proportions(drive):
+    """A handful of sizes that leave the family's proportions, a sentence each."""
     solved = drive.design.as_solved()
     tables = {name: entries for name, entries in solved.items() if isinstance(entries, dict)}
     given = {f"{table}.{key}": value for table, entries in tables.items() for key, value in entries.items()}
-    told = outline.beside_proportions(description.families()[drive.design.family], given)[:HANDFUL]
-    if told:
+    return outline.beside_proportions(description.families()[drive.design.family], given)[:HANDFUL]
+
+
+def say_proportions(drive):
+    """On standard error, for flanks that meet nowhere: a handful of sizes that leave the family's proportions."""
+    if told := beside_proportions(drive):
         print("the flanks meet at none of these angles; first to look at:", *told, sep="\n  ", file=sys.stderr)
 
 

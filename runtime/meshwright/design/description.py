@@ -7,10 +7,11 @@ description of a drive that is in none of them is made when it is first asked fo
 
 import json
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 
 from meshwright.base.drives import SHIPPED, folder_of, folders
 from meshwright.base.errors import LibraryError
+from meshwright.design.relations import Drawing
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +26,7 @@ class Family:
     ``listed``: drive → its own parameters, in the order of its parameter vector. ``exchange``: what of it a neutral
     file holds (:mod:`meshwright.rexs`), None if nothing.
     ``outline`` says how a first design is made, ``regrind`` how a resharpened tool enters one; None where the family
-    does not say it.
+    does not say it. ``drawn`` is what its drawings state (:class:`~meshwright.design.relations.Drawing`).
     """
 
     name: str
@@ -37,6 +38,7 @@ class Family:
     exchange: dict | None = None
     outline: dict | None = None
     regrind: dict | None = None
+    drawn: dict | None = None
 
     @classmethod
     def of(cls, name, drives):
@@ -51,11 +53,16 @@ class Family:
         parameters = [_joint(name, place, found, len(found) == len(named)) for place, found in listed.items()]
         own = {name: drive["parameters"] for name, drive in named.items()}
         handed = max(drive["handed"] for drive in named.values())
-        exchange, outline, regrind = (
+        exchange, outline, regrind, drawn = (
             next((drive[kind] for drive in drives if drive.get(kind)), None)
-            for kind in ("exchange", "outline", "regrind")
+            for kind in ("exchange", "outline", "regrind", "drawing")
         )
-        return cls(name, parameters, variants, defaults, handed, own, exchange, outline, regrind)
+        return cls(name, parameters, variants, defaults, handed, own, exchange, outline, regrind, drawn)
+
+    @cached_property
+    def drawing(self):
+        """Sizes, relations and defaults of the family's drawings."""
+        return Drawing(self.drawn, self.parameters)
 
     @property
     def choosing(self):
@@ -109,7 +116,7 @@ def _drives_in(folder):
         for family in json.loads(table.read_text(encoding="utf-8"))["families"].values():
             for drive in family["drives"]:
                 own = [family["parameters"][k] for k in drive["parameters"]]
-                shared = {kind: family.get(kind) for kind in ("exchange", "outline")}
+                shared = {kind: family.get(kind) for kind in ("exchange", "outline", "drawing")}
                 yield drive | {"parameters": own} | shared
     elif folder == SHIPPED:
         raise LibraryError(f"{table} does not exist: run `make build` in the checkout, or install the wheel")

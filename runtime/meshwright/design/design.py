@@ -21,6 +21,7 @@ from meshwright.design import description as metadata
 from meshwright.design import schema
 from meshwright.design.mirror import Mirror
 from meshwright.design.nearest import filled_nearly
+from meshwright.design.relations import GIVEN, Completion
 
 PACKAGED = Path(__file__).parent.parent / "designs"
 
@@ -136,7 +137,8 @@ class Design:
     """A checked design: the drive that solves it and its complete parameter vector (inner units).
 
     ``sizes`` are derived, in the units of their keys; NaN where they follow from what the design leaves open.
-    ``places`` are the folders in which its drive was searched (:func:`meshwright.base.drives.folders`).
+    ``places`` are the folders in which its drive was searched (:func:`meshwright.base.drives.folders`). ``drawn`` are
+    the tables as they were given, where these hold sizes from which keys of ``tables`` follow; else None.
     """
 
     tables: dict
@@ -145,6 +147,7 @@ class Design:
     sizes: dict
     mirrored: bool
     places: tuple[Path, ...]
+    drawn: dict | None = None
 
     @property
     def model(self):
@@ -269,14 +272,7 @@ def _shown(parameter, number):
 
 def validated(tables, places=None):
     """Family and tables of a design, each key checked by itself; raises :class:`DesignError`."""
-    known = metadata.families(places)
-    if not isinstance(tables, dict):
-        raise DesignError("design", tables, "must be tables", "give a dictionary, as a TOML file is read")
-    if "drive" not in tables:
-        raise DesignError("drive", None, "the key is missing", f"name one of {', '.join(known)}")
-    family = tables["drive"]
-    if not isinstance(family, str) or family not in known:
-        raise DesignError("drive", family, "no such family of drives", f"use one of {', '.join(known)}")
+    family = _family(tables, places).name
     return family, schema.checked(family, tables, places)
 
 
@@ -286,6 +282,7 @@ def check(tables, places=None):
     ``places`` are the folders in which its drive is searched, by default :func:`meshwright.base.drives.folders`.
     """
     places = places or folders()
+    given, tables = tables, from_drawing(tables, places)
     family, checked = validated(tables, places)
     description = metadata.described(_chosen(metadata.families(places)[family], checked), places)
     _check_exclusive(description, tables["design"])
@@ -302,7 +299,50 @@ def check(tables, places=None):
         told = [*description["guards"], *description["missing"]]
         raise _guard_error(told[failed - 1], checked, _by_place(description, parameters))
     parameters.flags.writeable = False
-    return Design(checked, description, parameters, _sizes(c, parameters), _mirrored(description, checked), places)
+    sizes, mirrored = _sizes(c, parameters), _mirrored(description, checked)
+    return Design(checked, description, parameters, sizes, mirrored, places, None if tables is given else given)
+
+
+def from_drawing(tables, places=None):
+    """Raw tables with keys of their family alone, of those that may hold other sizes of a drawing, from which the keys
+    follow (:mod:`meshwright.design.relations`); the same object where there is nothing to do. Raises
+    :class:`DesignError`.
+    """
+    family = _family(tables, places)
+    drawing = family.drawing
+    if error := drawing.refused(tables):
+        raise error
+    entries = schema.drawn(family.name, tables, places)
+    closed = {p["name"] for place, p in drawing.places.items() if place in entries}
+    required = [p["name"] for p in drawing.parameters if p["required"] and p["name"] in drawing.follow]
+    if entries.keys() <= drawing.places.keys() - drawing.beside and closed >= {*required}:
+        return tables
+    completion = Completion.of(drawing, entries)
+    if error := completion.open_ends(required):
+        raise error
+    own = {place: p for place, p in drawing.places.items() if place not in drawing.beside}
+    kept = {name: {k: v for k, v in entry.items() if f"{name}.{k}" not in entries or f"{name}.{k}" in own}
+            if isinstance(entry, dict) else entry for name, entry in tables.items()}  # fmt: skip
+    changes = {}
+    for place, p in own.items():
+        known = completion.known.get(p["name"])
+        if known and known.provenance != GIVEN and p["name"] not in completion.usual and known.value != p["default"]:
+            number = known.value / p["factor"]
+            changes[place] = round(number) if p["integer"] else number
+    return changed(kept, changes)
+
+
+def _family(tables, places):
+    """The :class:`~meshwright.design.description.Family` of raw tables; raises :class:`DesignError`."""
+    known = metadata.families(places)
+    if not isinstance(tables, dict):
+        raise DesignError("design", tables, "must be tables", "give a dictionary, as a TOML file is read")
+    if "drive" not in tables:
+        raise DesignError("drive", None, "the key is missing", f"name one of {', '.join(known)}")
+    family = tables["drive"]
+    if not isinstance(family, str) or family not in known:
+        raise DesignError("drive", family, "no such family of drives", f"use one of {', '.join(known)}")
+    return known[family]
 
 
 def by_rules(tables):

@@ -22,13 +22,14 @@ class FirstDesign:
     assumed: tuple[tuple[str, object, str], ...]
 
 
-def first_design(family, name, words, given, own):
+def first_design(family, name, words, given, own, determined=None):
     """The :class:`FirstDesign` of a :class:`~meshwright.design.description.Family`.
 
     ``words`` choose its drive, ``given`` are the options by name, ``own`` values by "table.key" (or "key", above the
-    tables) that replace suggestions or stand beside them. Raises :class:`UsageError` where the options contradict each
-    other.
+    tables) that replace suggestions or stand beside them, ``determined`` those that follow from sizes of one's own and
+    need no suggestion. Raises :class:`UsageError` where the options contradict each other.
     """
+    determined = determined or {}
     unused = family.unused(words)
     symbols, chosen, told = dict(given), {}, []
     suggested = {suggestion["place"] for suggestion in family.outline["suggestions"]}
@@ -39,17 +40,19 @@ def first_design(family, name, words, given, own):
         number = _number(suggestion, symbols)
         if suggestion["name"] in symbols and math.isnan(number):
             continue
-        if place in own and isinstance(own[place], int | float):
-            number = own[place]
+        if isinstance(found := own.get(place, determined.get(place)), int | float):
+            number = found
         if unsound := _unsound(suggestion, number, symbols):
             asked = ", ".join(f"--{name}" for name in family.outline["options"])
             raise UsageError(f"{unsound}: change one of {asked}")
         symbols[suggestion["name"]] = number
         if not place and suggestion["why"] and math.isfinite(number):
             told.append((suggestion["name"], number, suggestion["why"]))
-        if place and place not in own and math.isfinite(number):
+        if place and place not in own | determined and math.isfinite(number):
             chosen[place] = number, suggestion["why"]
-    alone = {place: (number, ALONE) for place, number in own.items() if place not in suggested}
+    followed = {name for relation in family.drawing.relations for name in relation.sizes}
+    unfollowed = {f"{p['table']}.{p['key']}" for p in family.parameters if p["name"] not in followed} - suggested
+    alone = {place: (number, ALONE) for place, number in own.items() if place in unfollowed or "." not in place}
     written = chosen | {place: (number, "as given") for place, number in own.items()} | alone
     flank = next(p for p in family.parameters if p["table"] == "flank")["choices"]
     above = {"drive": family.name, "name": name, "flank": next(iter(flank))}

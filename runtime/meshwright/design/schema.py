@@ -7,11 +7,12 @@ import math
 import numbers
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 
 from meshwright.base.errors import DesignError
 from meshwright.design import description as metadata
+from meshwright.design.relations import Drawing
 
 HANDS = ("right", "left")
 
@@ -139,10 +140,13 @@ def _name(place: str, value: object) -> str:
 
 @dataclass(frozen=True)
 class Form:
-    """What a design file of a family may say: its ``loose`` keys and the keys of each of its ``tables``."""
+    """What a design file of a family may say: its ``loose`` keys, the keys of each of its ``tables``, and by table what
+    a drawing may give beside and instead of them (``drawn``), from which they follow.
+    """
 
     loose: dict[str, Key]
     tables: dict[str, dict[str, Key]]
+    drawn: dict[str, dict[str, Key]]
 
     def needed(self, table: str) -> bool:
         """Whether a table must be there: it has a required key."""
@@ -230,7 +234,10 @@ def _form(family: metadata.Family) -> Form:
         "name": Key("text", default=""),
         "flank": Key("word", default=flanks[0], words=flanks),
     }
-    return Form(loose, {"design": tables.pop("design"), **tables})
+    drawn: dict[str, dict[str, Key]] = {}
+    for size in family.drawing.table["sizes"]:
+        drawn.setdefault(size["table"], {})[size["key"]] = _parameter(size)
+    return Form(loose, {"design": tables.pop("design"), **tables}, drawn)
 
 
 def checked(family: str, tables: dict, places: tuple | None = None) -> dict:
@@ -253,6 +260,21 @@ def checked(family: str, tables: dict, places: tuple | None = None) -> dict:
             raise DesignError(table, entries, "must be a table", f"write its keys below [{table}]")
         checked_tables[table] = {name: _given(entries, name, f"{table}.{name}", key) for name, key in keys.items()}
     return checked_tables
+
+
+def drawn(family: str, tables: dict, places: tuple | None = None) -> dict[str, float | str]:
+    """What raw tables give of the sizes of a drawing, by "table.key", each checked by itself: see :func:`checked`."""
+    known, drawing = form(family, places), metadata.families(places)[family].drawing
+    found: dict[str, float | str] = {}
+    for table, entries in tables.items():
+        for name, value in entries.items() if isinstance(entries, dict) else ():
+            place = f"{table}.{name}"
+            key = known.tables.get(table, {}).get(name) or known.drawn.get(table, {}).get(name)
+            if value is None or not (place in drawing.places or (key is None and drawing.converted(place))):
+                continue
+            number = (key or Key("number", bounds={"gt": 0.0, "le": LARGEST["mm"]})).checked(place, value)
+            found |= {} if number is None else {place: number}
+    return found
 
 
 def _refuse_unknown(entries: dict, known: dict, before: str, whole: Form) -> None:
@@ -281,7 +303,7 @@ def _given(entries: dict, name: str, place: str, key: Key) -> float | int | str 
 
 def json_schema() -> dict[str, object]:
     """JSON Schema of every family's design file."""
-    schemas = {family: _family_schema(form(family)) for family in metadata.families()}
+    schemas = {name: _family_schema(form(name), family.drawing) for name, family in metadata.families().items()}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "meshwright design",
@@ -290,8 +312,13 @@ def json_schema() -> dict[str, object]:
     }
 
 
-def _family_schema(known: Form) -> dict[str, object]:
-    tables = {name: _object(keys) for name, keys in known.tables.items()}
+def _family_schema(known: Form, drawing: Drawing) -> dict[str, object]:
+    named = {place for place, p in drawing.places.items() if p["name"] in drawing.follow}
+    tables = {
+        name: _object({
+            key: replace(entry, required=entry.required and f"{name}.{key}" not in named) for key, entry in keys.items()
+        } | known.drawn.get(name, {})) for name, keys in known.tables.items()
+    }  # fmt: skip
     whole = _object(known.loose)
     properties = {name: key.json_schema() for name, key in known.loose.items()} | tables
     required = [*whole.get("required", []), *(name for name in known.tables if known.needed(name))]
@@ -309,6 +336,7 @@ def keys(family: str, places: tuple | None = None) -> list[dict]:
     """Keys of a family's tables as plain data, for ``meshwright drives``."""
     return [
         {"table": table, "key": name, "required": key.required, "meaning": key.meaning, "words": list(key.words)}
-        for table, entries in form(family, places).tables.items()
+        for tables in (form(family, places).tables, form(family, places).drawn)
+        for table, entries in tables.items()
         for name, key in entries.items()
     ]

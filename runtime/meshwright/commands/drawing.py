@@ -1,0 +1,36 @@
+"""What a drawing of a design states: every size with its symbol, value, and where it is from.
+
+Given sizes, those that relations derive from them, and what is assumed of the rest; checks with their margins.
+"""
+
+from meshwright.base.files import write_json, write_text
+from meshwright.commands import options as common
+
+#: Longest relation that fits on a line; --json has all of it.
+WIDEST = 72
+
+
+def add_arguments(parser):
+    common.add_design(parser)
+    parser.add_argument("--json", metavar="FILE|-", help="write as JSON")
+
+
+def run(options):
+    stated = common.drive_of(options).drawing()
+    if options.json:
+        write_json(options.json, stated.as_json())
+    else:
+        write_text("-", _page(stated))
+    return 0
+
+
+def _page(stated):
+    lines = [f"{stated.drive}, {stated.design['name'] or 'design'}"]
+    for key, size in stated.sizes.items():
+        value = size.value if isinstance(size.value, str | int) else f"{size.value:.9g}"
+        relation = size.relation if len(size.relation) <= WIDEST else f"{size.relation[: WIDEST - 1]}…"
+        lines.append(f"{key:<44} {value:<14} {size.provenance:<8} {relation}".rstrip())
+    for name, check in stated.checks.items():
+        said = check.word if check.holds else ("does not occur" if check.word == "occurs" else "not possible")
+        lines.append(f"{name:<44} {said}, margin {check.margin:.6g}")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,97 @@
+"""The drawing of a design: every size with its symbol, where it is from, and the relation that gives it."""
+
+import math
+from dataclasses import dataclass
+
+from meshwright.base.expression import value
+from meshwright.design import description as metadata
+from meshwright.design import schema
+from meshwright.design.relations import ASSUMED, DERIVED, GIVEN, Completion, Known, Symbols
+
+#: Why a size has its value where a design's completion gives it without a relation of the drawing.
+COMPLETED = "completes the design"
+
+
+@dataclass(frozen=True)
+class Size:
+    """A size of a drawing: its ``value`` in the unit of its key, or its word; ``provenance`` is "given", "derived" or
+    "assumed", ``relation`` the equation that derives it or the reason for which it is assumed.
+    """
+
+    value: float | int | str
+    symbol: str
+    meaning: str
+    provenance: str
+    relation: str
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A check of a drawing: its ``margin`` is positive where nothing occurs, or where something is possible.
+
+    ``word`` says which: "occurs" or "possible"; ``holds`` whether it does or is.
+    """
+
+    word: str
+    holds: bool
+    margin: float
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """What a drawing states: sizes by key (with its table, where a member has one of its own) and checks by name."""
+
+    drive: str
+    design: dict
+    sizes: dict[str, Size]
+    checks: dict[str, Finding]
+
+    def as_json(self):
+        """As plain data, ``meshwright.drawing/1``."""
+        shown = ("value", "symbol", "provenance", "relation")
+        return {
+            "schema": "meshwright.drawing/1", "drive": self.drive, "design": self.design,
+            "sizes": {key: {name: getattr(size, name) for name in shown} for key, size in self.sizes.items()},
+            "checks": {name: {c.word: c.holds, "margin": c.margin} for name, c in self.checks.items()},
+        }  # fmt: skip
+
+
+def sheet(design):
+    """The :class:`Sheet` of a :class:`~meshwright.design.design.Design`."""
+    drawing = metadata.families(design.places)[design.family].drawing
+    given = design.drawn or design.given()
+    completion = Completion.of(drawing, schema.drawn(design.family, given, design.places))
+    known = completion.known
+    for number, p in zip(design.parameters, design.description["parameters"], strict=True):
+        provenance = DERIVED if p["default"] is None else ASSUMED
+        if p["key"] in design.given().get(p["table"], ()):
+            provenance = GIVEN
+        if math.isfinite(number):
+            known.setdefault(p["name"], Known(float(number), provenance, "" if provenance == GIVEN else COMPLETED))
+    completion.close()
+    sizes = {}
+    converted = [size for size in completion.given.values() if size["name"] == size["place"]]
+    for p in [*drawing.listed, *converted]:
+        if (size := known.get(p["name"])) is not None:
+            symbol = "" if p["name"] in (p["key"], p.get("place")) else p["name"]
+            key = drawing.table["tables"].get(p["table"], "") + p["key"]
+            sizes[key] = Size(_outer(p, size.value), symbol, p["meaning"], size.provenance, size.why(p["name"]))
+    for s in design.description["sizes"]:
+        if s["key"] not in sizes and math.isfinite(design.sizes[s["key"]]):
+            sizes[s["key"]] = Size(design.sizes[s["key"]], "", s["meaning"], DERIVED, s["meaning"])
+    symbols = Symbols({name: size.value for name, size in known.items()})
+    checks = {}
+    for check in drawing.table["checks"]:
+        margin = value(check["margin"], symbols)
+        if math.isfinite(margin):
+            word, holds = ("occurs", margin < 0.0) if check["occurs"] else ("possible", margin > 0.0)
+            checks[check["name"]] = Finding(word, holds, margin)
+    return Sheet(design.family, design.as_solved(), sizes, checks)
+
+
+def _outer(parameter, number):
+    """An inner number in the unit of its key, or its word."""
+    words = {choice: word for word, choice in parameter["choices"].items()}
+    if number in words:
+        return words[number]
+    return round(number) if parameter["integer"] else number / parameter["factor"]
