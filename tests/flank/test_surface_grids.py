@@ -10,6 +10,7 @@ import pytest
 
 from meshwright import Drive
 from meshwright.cli import main
+from meshwright.flank import lines
 from meshwright.flank.exports import stl, vtu
 from tests.flank.step_files import valid_shape
 from tests.quick import some
@@ -271,3 +272,13 @@ def test_a_face_that_contact_never_reaches_is_found_all_the_same():
 def test_an_empty_region_says_so(capsys):
     assert main(["surface", "plain-za", "--member", "wheel", "--set", "blank.wheel_tip_radius_mm=60"]) == 2
     assert "empty" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("at_once", [1, 700, 10**9])
+def test_the_nearest_places_are_the_same_in_blocks_of_any_size(monkeypatch, at_once):
+    generator = np.random.default_rng(9)
+    known, places = generator.uniform(size=(300, 2)), generator.uniform(size=(157, 2))
+    monkeypatch.setattr(lines, "DISTANCES_AT_ONCE", at_once)
+    apart = np.linalg.norm((places[:, None] - known) / np.ptp(known, axis=0), axis=2)
+    assert np.array_equal(lines._nearest(known, places), np.argmin(apart, axis=1))
+    assert len(lines._nearest(known, places[:0])) == 0

@@ -1,4 +1,4 @@
-"""Write a design for other software: as a REXS 2 file, a table of its transmission error, or a package.
+"""Write a design for other software: as a REXS 2 file, a table of its transmission error, a component or a package.
 
 --rexs: with a report of what was mapped, what was not, and what was assumed. A design that came from a REXS file is put
 back into it: what the design does not hold stays there as it was. --new writes a file of its own instead. --measured
@@ -7,6 +7,9 @@ adds measured deviations of a member (a file as of `grid`, filled in) as lists o
 --table: error and ratio of the drive over one pitch, all pairs together, both flanks, as polynomials with a proved
 bound (.c, .json, .npz) or as samples of them (.csv, .txt for Modelica). Exit status 1 where an edge may touch before
 the pair that leads, or no pair touches within its limits: the table leaves edges out.
+
+--fmu: a component for simulations by FMI 2.0 or 3.0 (--fmi), model exchange and co-simulation, with the torques of the
+mesh on both shafts; compiled for this machine or for --platforms, by the names that FMI has for them.
 
 --crate, --npm: a crate of Rust with the drive's C, which needs a C compiler and no other crate; an ES module with
 WebAssembly for Node and browsers. Both solve the pair in mesh and the whole drive at any angle, with the native bits.
@@ -21,6 +24,7 @@ from meshwright.contact.results import ARCSEC
 from meshwright.design import design as designs
 from meshwright.drive import Drive
 from meshwright.export import packages, table_files
+from meshwright.export.fmu import fmu
 from meshwright.export.table import table
 from meshwright.rexs.measurements import with_points
 from meshwright.rexs.origin import origin_of
@@ -39,6 +43,7 @@ def add_arguments(parser):
     kind = parser.add_mutually_exclusive_group(required=True)
     kind.add_argument("--rexs", metavar="OUT|-", help="where to write the REXS file")
     kind.add_argument("--table", metavar="FILE", help="where to write the table: .c, .json, .csv, .npz or .txt")
+    kind.add_argument("--fmu", metavar="FILE", help="where to write the component of --fmi 2 or 3")
     kind.add_argument("--crate", metavar="DIR", help="new folder for a crate of Rust, which it names")
     kind.add_argument("--npm", metavar="DIR", help="new folder for an npm package, which it names")
     parser.add_argument("--json", metavar="REPORT|-", help="write the report (schema meshwright.rexs/1)")
@@ -49,6 +54,10 @@ def add_arguments(parser):
         "--tolerance-arcsec", type=common.positive, metavar="T", help="of the table's errors; default: 1e-6"
     )
     parser.add_argument("--coast", metavar="DESIGN", help="the other flank, where that has a design of its own")
+    parser.add_argument("--fmi", choices=("2", "3"), help="version of --fmu; default: 3")
+    parser.add_argument("--platforms", metavar="P1,P2,…", help="for which --fmu is compiled, such as linux64,win64")
+    parser.add_argument("--sources", action="store_true", help="with its C in the archive of --fmu")
+    parser.add_argument("--allow-jam", action="store_true", help="write --fmu of a drive without backlash, too")
     parser.add_argument(
         "--set", action="append", default=[], metavar="TABLE.KEY=VALUE", help="change a key of the design; repeatable"
     )
@@ -57,7 +66,7 @@ def add_arguments(parser):
 #: Options that each kind of file has beside those of all.
 OPTIONS = {
     "rexs": ("json", "new", "measured", "member"), "table": ("tolerance_arcsec", "coast"),
-    "crate": ("coast",), "npm": ("coast",),
+    "fmu": ("fmi", "platforms", "sources", "allow_jam", "coast"), "crate": ("coast",), "npm": ("coast",),
 }  # fmt: skip
 
 
@@ -71,7 +80,13 @@ def run(options):
     changes = dict(common.setting(t) for t in options.set)
     drive = Drive.from_tables(designs.changed(designs.read(options.design), changes))
     coast = drive.other_side if options.coast is None else Drive.load(options.coast)
-    return {"table": _table, "crate": _package, "npm": _package}[kind](options, drive, coast)
+    return {"table": _table, "fmu": _fmu, "crate": _package, "npm": _package}[kind](options, drive, coast)
+
+
+def _fmu(options, drive, coast):
+    platforms = () if options.platforms is None else tuple(options.platforms.split(","))
+    fmu(drive, coast, options.fmu, int(options.fmi or 3), platforms, options.sources, options.allow_jam)
+    return 0
 
 
 def _package(options, drive, coast):

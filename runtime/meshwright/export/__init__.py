@@ -1,1 +1,1 @@
-"""A drive inside other software: tables of its error."""
+"""A drive inside other software: tables of its error, components of FMI, packages of other languages."""

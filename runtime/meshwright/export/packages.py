@@ -22,11 +22,11 @@ def crate(drive, coast, folder):
     """Write a crate of a drive, and of the drive of its other flank or None, into a new folder."""
     name = _name(folder, "--crate")
     files = {
-        "Cargo.toml": _filled("Cargo.toml", name=name, said=_said(drive)),
-        "build.rs": _filled("build.rs"),
-        "src/lib.rs": _filled("lib.rs", said=_said(drive)),
-        "examples/follow.rs": _filled("follow.rs", crate=name.replace("-", "_")),
-        f"c/{_prefix(drive)}.h": _header(drive),
+        "Cargo.toml": filled("Cargo.toml", name=name, said=said(drive)),
+        "build.rs": filled("build.rs"),
+        "src/lib.rs": filled("lib.rs", said=said(drive)),
+        "examples/follow.rs": filled("follow.rs", crate=name.replace("-", "_")),
+        f"c/{prefix(drive)}.h": header(drive),
         "c/mesh.c": source(drive, coast),
     }
     _write(folder, files)
@@ -40,10 +40,10 @@ def npm(drive, coast, folder):
     exports = ("mesh_begin", "mesh_follow", "mesh_cycle", "mesh_memory", "mesh_result")
     words = ", ".join(f'"{code}": "{word}"' for code, word in statuses().items())
     files = {
-        "package.json": _filled("package.json", name=name, said=_said(drive)),
-        "index.js": _filled("index.js", words=words),
-        "index.d.ts": _filled("index.d.ts"),
-        "example.mjs": _filled("example.mjs"),
+        "package.json": filled("package.json", name=name, said=said(drive)),
+        "index.js": filled("index.js", words=words),
+        "index.d.ts": filled("index.d.ts"),
+        "example.mjs": filled("example.mjs"),
         "mesh.wasm": to_wasm(text, exports, drive.design.description["folder"]),
     }
     _write(folder, files)
@@ -52,35 +52,40 @@ def npm(drive, coast, folder):
 def source(drive, coast):
     """The C file of a package: the design's parameters, and calls that pass plain numbers."""
     other = drive.design if coast is None else coast.design
-    return _filled(
+    return filled(
         "mesh.c",
-        said=_said(drive),
-        drive=_prefix(drive),
+        said=said(drive),
+        drive=prefix(drive),
         sign=drive.design.mirror.sign,
-        driven=_numbers(drive.design.parameters),
-        coasting=_numbers(other.parameters),
+        driven=numbers(drive.design.parameters),
+        coasting=numbers(other.parameters),
         coast=int(coast is not None),
     )
 
 
-def _prefix(drive):
+def prefix(drive):
+    """Of the drive's C names."""
     return drive.design.description["prefix"]
 
 
-def _header(drive):
+def header(drive):
+    """The text of the drive's own header."""
     folder = Path(drive.design.description["folder"])
-    return (folder / "include" / f"{_prefix(drive)}.h").read_text(encoding="utf-8")
+    return (folder / "include" / f"{prefix(drive)}.h").read_text(encoding="utf-8")
 
 
-def _said(drive):
+def said(drive):
+    """The design in words that no language takes for its own."""
     return re.sub(r'[*"\\]', "", drive.design.label)
 
 
-def _numbers(values):
+def numbers(values):
+    """Numbers as C has them, NAN for one that is none."""
     return ", ".join(repr(float(value)) if math.isfinite(value) else "NAN" for value in values)
 
 
-def _filled(template, **values):
+def filled(template, **values):
+    """The text of a template with the values in their places."""
     text = (TEMPLATES / template).read_text(encoding="utf-8")
     for name, value in values.items():
         text = text.replace(f"@{name}@", str(value))

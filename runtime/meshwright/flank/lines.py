@@ -45,6 +45,9 @@ STEPS_ACROSS = 8
 #: A line is no narrower than this part of the one before it, and than this one of the first of those that follow it.
 NARROWEST, CUSP = 1e-6, 1e-8
 
+#: Distances between places that are held at once.
+DISTANCES_AT_ONCE = 2_000_000
+
 #: Limits that come from the surface itself, not from a size of blank or tool.
 SINGULAR = ("undercut", "regression", "spurious_sheet")
 
@@ -351,8 +354,10 @@ def _nearest(known, places):
     """For each place (P, 2) the number of the nearest of known ones (V, 2), in shares of their spread."""
     spread = np.maximum(np.ptp(known, axis=0), 1e-300)
     known, places = known / spread, places / spread
-    # of squared distances what differs from one known place to another
-    return np.argmin(np.sum(known**2, axis=1) - 2.0 * places @ known.T, axis=1)
+    # of squared distances what differs from one known place to another, of so many places that a block stays small
+    squares, rows = np.sum(known**2, axis=1), max(1, DISTANCES_AT_ONCE // len(known))
+    blocks = [places[k : k + rows] for k in range(0, max(1, len(places)), rows)]
+    return np.concatenate([np.argmin(squares - 2.0 * block @ known.T, axis=1) for block in blocks])
 
 
 def _longest_runs(inside):
