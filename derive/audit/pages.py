@@ -17,6 +17,7 @@ from derive.audit.claims import Document, Figure
 from derive.audit.described import origin_of
 from derive.audit.drive_pages import Page, drive_pages, file_name
 from derive.audit.guarded import Row
+from derive.audit.kernel.translate import is_stated
 from derive.audit.ledger import Chapter, Judged, Ledger, Reading, Verdict, drives_read
 from derive.audit.mutations.table import measured
 from derive.audit.plain_text import words_of
@@ -96,6 +97,29 @@ class Entry:
         return not self.drives and any(not isinstance(part.of, Figure) for part in parts)
 
 
+def _held(
+    ledger: Ledger, counts: Mapping[str, Counter[str]], functions: Mapping[str, Mapping[str, list[str]]]
+) -> list[tuple[str, int, str]]:
+    """How much is held by what: (kind, number, what it is and what checks it), of the objects that the checks read."""
+    certificates = [item for item in ledger.objects.values() if item["object"] == "certificate"]
+    stated = sum(map(is_stated, certificates))
+    points = sum(item["kind"] == "exact_point" for item in certificates)
+    numbers = len(certificates) - stated - points
+    taken = sum(count["definition"] + count["not_mathematical"] for count in counts.values())
+    return [
+        ("proved by the kernel", stated, "identities, each component a theorem of Coq (make kernel)"),
+        ("checked modulo primes", sum(map(len, functions.values())),
+         "generated C functions, compared with the descriptions at random points (check_code.py, "
+         "check_description.py)"),
+        ("tested", points + numbers,
+         f"statements without a theorem: {points} counterexamples and {numbers} results of arithmetic, such as numbers "
+         "of tables, recomputed in exact fractions or enclosures (check.py)"),
+        ("trusted", taken + len(TRUSTED),
+         f"entries and premises: {taken} definitions and sentences with nothing to prove, and {len(TRUSTED)} premises "
+         "of certified contact"),
+    ]  # fmt: skip
+
+
 def pages(
     ledger: Ledger,
     chapters: list[Chapter],
@@ -137,6 +161,7 @@ def pages(
             **common,
             shown=shown,
             counts=counts,
+            held=_held(ledger, counts, functions),
             corrections=corrections,
             covered=[(names[line[0]], *line) for line in coverage.summary(covered)],
             unjudged=[(row, names[row.document]) for row in covered if not row.entries],

@@ -22,7 +22,9 @@ make kernel writes each component of each proof as a theorem over the real numbe
 as hypotheses and the recorded cofactors as evidence; Coq's kernel expands both sides, and where cofactors are long
 reduces the difference by the relations itself. These rest on the axioms of Coq's real numbers alone. Locus, normal and
 equation of meshing of the ZN wheel are stated with derivatives as limits; this chain also uses excluded middle
-(Classical_Prop.classic), from the library of derivatives. No proof is left out.
+(Classical_Prop.classic), from the library of derivatives; of other drives locus, normal and equation of meshing are
+identities between derivatives that are formed before Coq reads them. No proof is left out; numbers of tables and
+counterexamples are no proofs of this kind: check.py recomputes them, Coq does not read them.
 
 False statements come with numbers
 Each refutation names a point with rational cosines and sines at which the two sides differ; the checker recomputes both

@@ -1,6 +1,8 @@
 """The pages of the record lead from a drive's chain to its C functions and statements, and back."""
 
+import json
 import re
+from collections import Counter
 from functools import cache
 from pathlib import Path
 
@@ -86,3 +88,15 @@ def test_a_page_says_where_its_definitions_were_read_and_in_which_letters():
 def test_a_statement_says_which_descriptions_it_reads_or_that_it_reads_none(entry, said):
     page = text("rack-and-pinion.html")
     assert said in page[page.index(f'id="{entry}"') :].partition("</section>")[0]
+
+
+def test_the_overview_counts_what_each_check_holds():
+    """Identities are put to Coq; each other certificate is recomputed; none is counted twice or left out."""
+    record = [json.loads(line) for line in text("certificates.jsonl").splitlines()]
+    kinds = Counter(item["kind"] for item in record if item["object"] == "certificate")
+    page = text("index.html")
+    held = dict(re.findall(r"<tr><th>([^<]+)</th><td class=\"number\">(\d+)</td><td>", page))
+    assert list(held) == ["proved by the kernel", "checked modulo primes", "tested", "trusted"]
+    assert int(held["proved by the kernel"]) == kinds["ring_nf"]
+    assert int(held["tested"]) == kinds["exact_point"] + kinds["numeric"] == kinds.total() - kinds["ring_nf"]
+    assert page.index("What is held by what") < page.index("Conventions</h2>")

@@ -2,6 +2,8 @@
 
 import ctypes
 import json
+import re
+import shutil
 
 import numpy as np
 import pytest
@@ -104,6 +106,43 @@ def test_every_compiler_level_and_machine_gives_the_same_bits(tmp_path, drive, l
         assert count == steps, where
         assert x.tobytes() == first.tobytes(), where
     assert np.abs(first - solution).max() < 1e-11 * max(1.0, np.abs(solution).max())
+
+
+def _assembly(machine, folder, source, *defines):
+    """Lines that clang makes of a source without a C library: where errno is kept, and where it is not."""
+    target = () if machine == "native" else c.TARGETS[machine][: 3 if machine == "cortex-m7" else 2]
+    for errno in ("-fmath-errno", "-fno-math-errno"):
+        output = folder / f"{errno}.s"
+        options = ("-ffp-contract=off", "-ffreestanding", "-O2", "-g0", errno, f"-I{c.FREESTANDING}")
+        c.run(*c.CLANG, "cc", *target, *options, *defines, "-S", source, "-o", output)
+        yield output.read_text(encoding="latin-1").splitlines()
+
+
+@pytest.mark.parametrize("machine", ["native", *sorted(MACHINES)])
+def test_without_a_c_library_a_square_root_is_an_instruction(tmp_path, machine):
+    """One that calls itself is an endless loop, which clang deletes with all that asks for it."""
+    text = "#include <math.h>\ndouble root(double a);\ndouble root(double a) { return sqrt(a); }"
+    (tmp_path / "root.c").write_text(text)
+    kept, dropped = _assembly(machine, tmp_path, tmp_path / "root.c")
+    assert kept == dropped
+    assert any("sqrt" in line and not re.search(r"call|\bbl?\b", line) for line in kept)
+
+
+@pytest.mark.validate
+@pytest.mark.parametrize("machine", ["native", *sorted(MACHINES)])
+def test_without_a_c_library_clang_keeps_the_whole_solver(tmp_path, machine):
+    drive = (f"-I{c.GENERATED}", "-DDRIVE=spherical_convex_spur", '-DHEADER="spherical_convex_spur.h"')
+    kept, dropped = _assembly(machine, tmp_path, c.FREESTANDING / "solve.c", *drive)
+    assert len(kept) == len(dropped) > 5_000
+
+
+@pytest.mark.skipif(not shutil.which("gcc"), reason="there is no gcc")
+def test_without_a_c_library_gcc_is_told_what_it_needs(tmp_path):
+    defines = ("-DDRIVE=face_worm", '-DHEADER="face_worm.h"', f"-I{c.GENERATED}", f"-I{c.FREESTANDING}")
+    command = ["gcc", "-fsyntax-only", *defines, c.FREESTANDING / "solve.c"]
+    c.run(*command, "-fno-math-errno")
+    with pytest.raises(AssertionError, match="compile with -fno-math-errno"):
+        c.run(*command)
 
 
 LANES = r"""

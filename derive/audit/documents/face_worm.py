@@ -27,6 +27,7 @@ DOCUMENT = Document(
         "x": ("x", "mm", "tool surface, any"),
         "y": ("y", "mm", "tool surface, any"),
         "z": ("z", "mm", "tool surface, any"),
+        "s": ("s", "rad/mm", "slope of θ over u, any"),
     },
 )
 
@@ -77,7 +78,7 @@ CLAIMS = claims(
     """
 eq-1 | Eq (1), Table 1
 > ω(w)/ω(d) = N2/N1; gear ratio 30
-Definition of the gearing; 60/2 = 30.
+The first equation is the definition of the gearing; checked is the arithmetic of Table 1 alone, 60/2 = 30.
     60/2 -> 30
 
 eq-2 | Eqs (2), (3)
@@ -103,8 +104,10 @@ damage: vertical bars may be lost
 
 eq-5 | Eqs (5), (6) | IMPLICIT
 > θ_h = θ_h(u_h, ψ_h); r2*(u, θ(u,ψ), ψ) = R2*(u, ψ)
-Along θ(u) with the slope -f_u/f_θ the equation of meshing keeps its value, so the surface is given by two parameters.
-    d(g, (u, 1), (theta, slope)) = 0
+That there is a function θ(u, ψ) near a solution is the implicit function theorem, a hypothesis here and not proved.
+Proved is which slope it has: along a curve θ(u) of any slope s the equation of meshing changes by f_θ (s + f_u/f_θ),
+and so keeps its value with the slope -f_u/f_θ and with no other.
+    d(g, (u, 1), (theta, s)) = g[0, 1]*(s - slope)
 where: ∂f/∂θ ≠ 0
 
 step-v | §3, step (v)

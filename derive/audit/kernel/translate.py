@@ -81,12 +81,16 @@ class Theorem:
 def theorems(objects: dict[str, dict]) -> dict[str, list[Theorem]]:
     """Document -> its theorems, in the order of the record."""
     found: dict[str, list[Theorem]] = {}
-    for item in objects.values():
-        if item["object"] == "certificate" and item["kind"] == "ring_nf":
-            equation = objects[item["equation"]]
-            document = equation["id"].partition("/")[0]
-            found.setdefault(document, []).extend(_theorems(item, equation, record.definitions_of(equation, objects)))
+    for item in filter(is_stated, objects.values()):
+        equation = objects[item["equation"]]
+        document = equation["id"].partition("/")[0]
+        found.setdefault(document, []).extend(_theorems(item, equation, record.definitions_of(equation, objects)))
     return found
+
+
+def is_stated(item: dict) -> bool:
+    """Whether an object of the record is put to the kernel: a proof is, a table's number or a counterexample is not."""
+    return item["object"] == "certificate" and item["kind"] == "ring_nf"
 
 
 def file_text(document: str, stated: Sequence[Theorem]) -> str:

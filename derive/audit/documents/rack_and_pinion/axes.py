@@ -15,7 +15,8 @@ where: R1j ≠ 0
 
 decomposition | §5 | AXES
 > ω_1 + ω_2 = ω(2) - ω(1);  R_1j i_1×ω_1 + R_2f i_1×ω_2 - A i_1×ω(2) = 0;  R_2f = 0, tan α = p/R_1j
-With R2f = 0 and tan α = p/R1j both equations hold.
+R2f = 0 and tan α = p/R1j are a solution: both equations hold with them. That there is no other is not said here; the
+roots at 90° are those of right-angle-roots.
     omega_a + omega_b = omega2 - omega1
     R1j*cross(i1, omega_a) + R2f*cross(i1, omega_b) - cross(seat, omega2) = vec(0, 0, 0)
     tan(alpha) = p/R1j
