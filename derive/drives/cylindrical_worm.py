@@ -12,6 +12,7 @@ import sympy as sp
 
 from derive.drives import cylindrical_worm_keys as k
 from derive.drives import outlines
+from derive.drives.cylindrical_worm_drawing import drawing
 from derive.drives.cylindrical_worm_functions import generation_functions
 from derive.drives.cylindrical_worm_keys import (
     T_1,
@@ -156,6 +157,7 @@ def cylindrical_worm(worm_profile, hob_profile, condition=k.NEW):
     worm_tool, hob_tool = TOOLS[worm_profile], TOOLS[hob_profile]
     own = _own(worm_tool, hob_tool)
     worm, hob = worm_tool(_worm(own), definitions), hob_tool(_hob(own), definitions)
+    worm = _of_its_thickness(worm)
     systems = _of_reground_hob(hob, own, definitions) if not condition.new else ()
     hob = hob if condition.new else reground(hob, _hob(own), definitions, condition.ground_off)
     phi_h = rotation_angle("phi_hob", "angle of the hob in cutting", "gen")
@@ -237,6 +239,7 @@ def cylindrical_worm(worm_profile, hob_profile, condition=k.NEW):
         exchange=_exchange() if condition.new else None,
         regrind=REGRIND,
         outline=lambda: outlines.worm(TOOLS.values()),
+        drawing=drawing(),
         sources=SOURCES,
         handed="right",
         exclusive=(
@@ -244,6 +247,13 @@ def cylindrical_worm(worm_profile, hob_profile, condition=k.NEW):
             (k.lead_angle.key, k.pitch_radius.key),
         ),
     )
+
+
+def _of_its_thickness(worm):
+    """The worm with the allowance of its thread thickness: each flank, moved along the axis, is the helicoid it was, so
+    that an equal hob still cuts its mate.
+    """
+    return replace(worm, flank=worm.flank.placed(translation(z=-s * k.thickened)))
 
 
 def _of_reground_hob(hob, own, definitions):

@@ -21,6 +21,9 @@ pressure_angle = parameter(
 )
 shaft_angle = parameter("shaft_angle_deg", "Sigma", "shaft angle", domain=(0, sp.pi), default=sp.pi / 2)
 shift = parameter("pitch_line_shift_mm", "dx", "pitch line below the middle of the blade height", default=0)
+thickness_allowance = parameter(
+    "worm_thickness_allowance_um", "A_sn", "allowance of the normal thread thickness of the worm", default=0
+)
 hob_radius = parameter("hob_pitch_radius_mm", "r_hob", "reference radius of the hob", domain=POSITIVE)
 hob_threads = parameter("hob_threads", "T_hob", "threads of the hob", domain=POSITIVE, integer=True)
 hob_pressure_angle = parameter(
@@ -106,8 +109,8 @@ def parameters(own, condition):
     """The parameter vector, with the keys of the two tools' own data."""
     return (
         flank, normal_module, axial_module, threads, teeth, lead_angle, pitch_radius, pressure_angle, shaft_angle,
-        shift, hob_radius, hob_threads, *own["worm"].values(), hob_pressure_angle, *own["hob"].values(),
-        hob_lead_angle, center_distance, cutting_distance, cutting_angle,
+        shift, thickness_allowance, hob_radius, hob_threads, *own["worm"].values(), hob_pressure_angle,
+        *own["hob"].values(), hob_lead_angle, center_distance, cutting_distance, cutting_angle,
         error_distance, error_horizontal, error_vertical, error_axial,
         wheel_tip, wheel_throat, face_width, worm_tip, worm_root, hob_tip, hob_rounding, preset, separation,
         allowance, *condition.parameters,
@@ -124,6 +127,9 @@ p_1 = r_1 * sp.tan(lam)
 p_h = r_h * sp.tan(lam_h)
 r_2 = m_n * T_2 / (2 * sp.sin(Sigma + lam))
 groove_width = sp.pi * m_n / 2 - 2 * shift.symbol * sp.tan(alpha)
+
+#: How far each flank of the worm is moved along its axis, out of the thread, by the allowance of its thickness.
+thickened = thickness_allowance.symbol / (2 * sp.cos(lam))
 
 
 @dataclass(frozen=True)

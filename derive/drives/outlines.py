@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from derive.language.choice import unit_step
+from derive.language.choice import only_where_zero, unit_step
 from derive.language.outline import Outline, Suggestion, a, m, z_1, z_2
 from derive.language.tool import suggestions
 from derive.tools.worm_body import SHEET_USED
@@ -66,9 +66,18 @@ def worm(tools):
         "x_2", 4, within=(-1, 1),
     )  # fmt: skip
     A = distance.symbol  # noqa: N806 the centre distance, by its usual letter
+    nominal = Suggestion("", (0 * m,), name="A_sn")
+    thinned = Suggestion(
+        "design.worm_thickness_allowance_um", (only_where_zero(hob.symbol - r_1, -20 * m / sp.cos(alpha)),),
+        "0.02 modules of normal backlash, by a thinner thread: an equal hob keeps its line of contact", "A_sn", 1,
+    )  # fmt: skip
     cutting = Suggestion(
-        "design.cutting_center_distance_mm", (A + hob.symbol - r_1 - m / (100 * sp.sin(alpha)),),
-        "the hob goes deeper than contact without backlash by what leaves 0.02 modules of normal backlash", "A_gen", 4,
+        "design.cutting_center_distance_mm",
+        (
+            A + hob.symbol - r_1 - only_where_zero(nominal.symbol, m / (100 * sp.sin(alpha))),
+            A + hob.symbol - r_1,
+        ),
+        "without backlash; of a thread of nominal thickness deeper, by 0.02 modules of normal backlash", "A_gen", 4,
     )  # fmt: skip
     hob_screw = hob.symbol * sp.tan(sp.asin(normal * threads.symbol / (2 * hob.symbol)))
     worm_rolls, hob_rolls = A - r_2, cutting.symbol - r_2
@@ -96,6 +105,7 @@ def worm(tools):
             distance, distance_arc, distance_asked, wheel_shift,
             hob, hob_arc,
             threads,
+            nominal, thinned,
             cutting,
             Suggestion(
                 "design.cutting_shaft_angle_deg", (shaft.symbol + swivel * 180 / sp.pi,),

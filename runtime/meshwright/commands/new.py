@@ -13,6 +13,7 @@ import math
 import re
 import shlex
 from collections import Counter
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +26,7 @@ from meshwright.contact.results import ON_FLANKS, impossible
 from meshwright.design import description, schema
 from meshwright.design import design as designs
 from meshwright.design.outline import first_design
-from meshwright.design.relations import Completion
+from meshwright.design.relations import DERIVED, Completion
 from meshwright.drive import Drive
 from meshwright.flank.pointed import pointed
 from meshwright.limits.results import Request
@@ -84,7 +85,8 @@ def run(options):
     if math.isfinite(options.a) and "a" not in family.outline["options"]:
         raise UsageError(f"--a {options.a:g}: the centre distance of this family follows from its teeth; leave it out")
     name = options.name or "-".join([family.name, *words.values(), f"{options.z[0]}-{options.z[1]}"]).lower()
-    first = first_design(family, name, words, given, own, determined)
+    follow = partial(_followed, family, own) if own else None
+    first = first_design(family, name, words, given, own, determined, follow)
     try:
         drive = _drive(first)
     except DesignError as error:
@@ -131,6 +133,17 @@ def _determined(family, asked, own):
     if math.isnan(options["m"]):
         raise UsageError("--m: no module; give it, or a size from which it follows, by --set")
     return options, {place: number for place, number in determined.items() if place not in own}
+
+
+def _followed(family, own, chosen):
+    """The keys that relations derive from one's ``own`` sizes and those ``chosen`` beside them, by "table.key"."""
+    drawing = family.drawing
+    tables = designs.changed({"drive": family.name}, chosen | own)
+    completion = Completion.of(drawing, schema.drawn(family.name, tables))
+    theirs = {name for name, size in completion.given.items() if size["place"] in own}
+    by_own = {place for place, p in drawing.places.items()
+              if (known := completion.known.get(p["name"])) and known.provenance == DERIVED and known.ends & theirs}
+    return {place: number for place, number in completion.determined().items() if place in by_own}
 
 
 def _drive(first):

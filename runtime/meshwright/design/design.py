@@ -285,7 +285,7 @@ def check(tables, places=None):
     given, tables = tables, from_drawing(tables, places)
     family, checked = validated(tables, places)
     description = metadata.described(_chosen(metadata.families(places)[family], checked), places)
-    _check_exclusive(description, tables["design"])
+    _check_exclusive(description, tables["design"], given.get("design", {}))
     _check_needed(description, checked, places)
     _check_together(description, checked)
     _check_order(description, checked)
@@ -360,7 +360,7 @@ def by_rules(tables):
     }  # fmt: skip
     _check_needed(description, checked)
     _check_order(description, checked)
-    _check_exclusive(description, tables["design"])
+    _check_exclusive(description, tables["design"], tables["design"])
     symbols = {p["name"]: math.nan for p in known.parameters}
     given = zip(description["parameters"], _vector(description, checked), strict=True)
     symbols |= {p["name"]: float(number) for p, number in given}
@@ -420,7 +420,8 @@ def _mirrored(description, checked):
     return bool(description["handed"]) and checked["design"]["hand"] != description["handed"]
 
 
-def _check_exclusive(description, given):
+def _check_exclusive(description, known, given):
+    """Of keys that determine each other one is ``known``; the design has ``given`` one at most, others by relations."""
     for group in description["exclusive"]:
         present = [key for key in group if given.get(key) is not None]
         pair = " and ".join(group)
@@ -428,7 +429,7 @@ def _check_exclusive(description, given):
             raise DesignError(
                 f"design.{present[1]}", given[present[1]], f"{pair} determine each other", "give exactly one of them"
             )
-        if not present:
+        if all(known.get(key) is None for key in group):
             raise DesignError(f"design.{group[0]}", None, f"neither of {pair} is given", "give exactly one of them")
 
 

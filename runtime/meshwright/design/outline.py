@@ -22,14 +22,15 @@ class FirstDesign:
     assumed: tuple[tuple[str, object, str], ...]
 
 
-def first_design(family, name, words, given, own, determined=None):
+def first_design(family, name, words, given, own, determined=None, follow=None):
     """The :class:`FirstDesign` of a :class:`~meshwright.design.description.Family`.
 
     ``words`` choose its drive, ``given`` are the options by name, ``own`` values by "table.key" (or "key", above the
     tables) that replace suggestions or stand beside them, ``determined`` those that follow from sizes of one's own and
-    need no suggestion. Raises :class:`UsageError` where the options contradict each other.
+    need no suggestion; ``follow`` gives those that follow only with suggestions beside them, by "table.key". Raises
+    :class:`UsageError` where the options contradict each other.
     """
-    determined = determined or {}
+    determined = dict(determined or {})
     unused = family.unused(words)
     symbols, chosen, told = dict(given), {}, []
     suggested = {suggestion["place"] for suggestion in family.outline["suggestions"]}
@@ -38,10 +39,14 @@ def first_design(family, name, words, given, own, determined=None):
         if place in unused or not _meant(suggestion, words):
             continue
         number = _number(suggestion, symbols)
+        found = own.get(place, determined.get(place))
+        if found is None and place and follow:
+            found = follow({size: chosen[size][0] for size in chosen}).get(place)
+            determined |= {} if found is None else {place: found}
+        if isinstance(found, int | float):
+            number = found
         if suggestion["name"] in symbols and math.isnan(number):
             continue
-        if isinstance(found := own.get(place, determined.get(place)), int | float):
-            number = found
         if unsound := _unsound(suggestion, number, symbols):
             asked = ", ".join(f"--{name}" for name in family.outline["options"])
             raise UsageError(f"{unsound}: change one of {asked}")
