@@ -194,6 +194,8 @@ def test_the_command_has_lines(tables, capsys, monkeypatch, tmp_path):
     assert {pair["kind"] for pair in point["pairs"]} == {"line"}
     assert sum(pair["share"] for pair in point["pairs"]) == pytest.approx(1.0)
     assert all(pair["hertz_semi_major_mm"] is None for pair in point["pairs"])
+    # Edges end lines: only a peak of pressure there is worth a word.
+    assert ("cut off" in point["message"]) == any(pair["peak_at_edge"] for pair in point["pairs"])
 
 
 def _neighbour(random):
