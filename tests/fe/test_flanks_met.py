@@ -39,7 +39,7 @@ def test_normals_of_a_plane_meet_the_flank_where_it_is(pair, member):
     way = normals[3] + 0.2 * np.array([0.3, -0.5, 0.4])
     plane = np.linalg.svd(way[None])[2][1:]
     feet = points + np.linspace(-2.0, 2.0, 7)[:, None] * way
-    profile, face, met = flank.surface.pierced(feet, plane, tuple(places[3]))
+    profile, face, met, _ = flank.surface.pierced(feet, plane, tuple(places[3]))
     assert flank.surface(profile, face)[0] == pytest.approx(met, abs=1e-9)
     assert (met - feet) @ plane.T == pytest.approx(np.zeros((7, 2)), abs=1e-9)
     near = slice(2, 5)
@@ -50,7 +50,7 @@ def test_lines_that_miss_the_flank_meet_nothing(pair):
     flank, _, places = flank_of(pair, "wheel")
     points, normals = flank.surface(*places.T)
     plane = np.linalg.svd(normals[3:4])[2][1:]
-    _, _, met = flank.surface.pierced(points[:1] + 1e6 * plane[0], plane, tuple(places[3]))
+    _, _, met, _ = flank.surface.pierced(points[:1] + 1e6 * plane[0], plane, tuple(places[3]))
     assert np.isnan(met).all()
 
 

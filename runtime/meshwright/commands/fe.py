@@ -87,7 +87,13 @@ def _make(folder):
 
 def _check_touches(fe, gear, angles, pairs):
     for angle in angles:
-        if not fe.pair.touches(gear, angle, pairs):
+        found = fe.pair.touches(gear, angle, pairs)
+        if any(contact.touch.curvature_min == 0.0 for contact in found):
+            raise UsageError(
+                f"--phi-deg {np.degrees(angle):g}: the flanks touch along a line, and the mesh is made about a contact "
+                "ellipse; crown a flank by some um; `meshwright loaded` has lines"
+            )
+        if not found:
             raise UsageError(
                 f"--phi-deg {np.degrees(angle):g}: no tooth pair touches there; "
                 f"{loading.gap_note(gear) or '`meshwright ratio` says where'}"

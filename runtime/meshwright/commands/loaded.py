@@ -2,19 +2,24 @@
 
 Elastic teeth are factorised once, which takes a second for gears and a few for threads, then every angle takes a part
 of a second; a terminal shows how far it is. Teeth are linear elastic and turn by small angles: where the loaded member
-turns by more than 0.01 rad there are no figures. A contact that an edge of a flank cuts off has a peak of pressure
-there that depends on the cells of the method; it is named, with Hertz's pressure under the same force. With --measured
-a flank has the measured deviations, every tooth those of the one measured; nothing beyond the measured grid touches.
-Where the bounded flanks of a pair touch first on an edge or at a corner, the pair carries there: on half-spaces with
-the free edges of a quarter-space, and the tooth behind; force and share hold, the peak of pressure is as sharp as the
-cells. Exit status 1 without figures: if no tooth pair touches at one of the angles, its contact under load is not
-found, or the torque is too large for the method.
+turns by more than 0.01 rad there are no figures. Points, lines, edges and corners are one method: pressure cells along
+the curve of smallest gap, as far as the flanks go, laid out wider until no pressure is left at a free border of theirs,
+and finer until rotation, forces and peaks change by less than 1 %. Each result is checked: its moment is the torque,
+and its peak is no lower than the least with which lines can carry the force (Johnson, Contact Mechanics). What fails is
+not_resolved and has no figures. Where an edge of a flank cuts a contact off and the mate goes on, pressure rises there
+without limit as cells get finer: such a peak is named, with Hertz's pressure under the same force. With --measured a
+flank has the measured deviations, every tooth those of the one measured; nothing beyond the measured grid touches.
+Where the bounded flanks of a pair touch first on an edge or at a corner, as those of gears out of line do, the pair
+carries from there on: on half-spaces with the free edges of a quarter-space, and the tooth behind; force and share
+hold, the peak of pressure is as sharp as the cells. Exit status 1 without figures: if no tooth pair touches at one of
+the angles, its contact under load is not found or not resolved, or the torque is too large for the method.
 """
 
 import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.base.files import write_json, write_text
+from meshwright.base.plain import finite_or_none
 from meshwright.commands import loading
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
@@ -133,12 +138,14 @@ def _point(fe, gear, mirror, angle, pairs, load, compliance):
         return point | {"status": "diverged", "message": str(error)}
     if not abs(found.rotation) <= fe.gate.LARGEST_ROTATION:
         return point | {"status": "rotation_not_small", "message": _too_far(found, fe.gate.LARGEST_ROTATION)}
+    if found.unresolved:
+        return point | {"status": "not_resolved", "message": found.unresolved}
     total = sum(pair.force for pair in found.pairs)
     lines = _lines(gear, angle, found.unloaded_error, found.pairs)
     errors = found.transmission_error, found.unloaded_error
     return point | {
         "status": "converged",
-        "message": "; ".join(_edge_note(pair, mirror) for pair in found.pairs if pair.cut_off),
+        "message": "; ".join(_edge_note(pair, mirror) for pair in found.pairs if _cut_short(pair)),
         **{key: error / ARCSEC for key, error in zip(ERRORS, errors, strict=True)},
         "mesh_stiffness_n_per_um": found.mesh_stiffness / 1000.0,
         "rotation_rad": found.rotation,
@@ -156,6 +163,11 @@ def _too_far(found, limit):
 def _number(pairs_later, mirror):
     """The number of a pair of the drive as described, as it is of the design's hand."""
     return f"{int(mirror.sign) * pairs_later:+d}"
+
+
+def _cut_short(pair):
+    """Whether an edge bounds a contact area that it need not bound: lines end at edges, where pressure may not peak."""
+    return pair.peaks_at_edge or (pair.cut_off and _kind(pair.contact.touch) != "line")
 
 
 def _edge_note(pair, mirror):
@@ -191,12 +203,18 @@ def _in_body(pose, points):
     return np.round((points - pose[:3, 3]) @ pose[:3, :3], 6).tolist()
 
 
+def _kind(touch):
+    if touch.edge:
+        return "edge"
+    return "tangency" if touch.curvature_min > 0.0 else "line"
+
+
 def _pair(pair, total):
-    hertz = pair.hertz
+    hertz, kind = pair.hertz, _kind(pair.contact.touch)
     return {
         "pairs_later": pair.contact.pairs_later,
-        "kind": "edge" if pair.contact.touch.edge else "tangency",
-        "first_contact": pair.contact.touch.edge or "tangency",
+        "kind": kind,
+        "first_contact": pair.contact.touch.edge or kind,
         "gap_um": 1000.0 * pair.apart,
         "force_n": pair.force,
         "share": pair.force / total,
@@ -204,7 +222,7 @@ def _pair(pair, total):
         "cut_off_by": list(pair.edges) or (["edge"] if pair.cut_off else []),
         "peak_at_edge": pair.peaks_at_edge,
         "hertz_pressure_mpa": float(hertz.peak_pressure) if hertz else None,
-        "hertz_semi_major_mm": hertz.semi_major if hertz else None,
+        "hertz_semi_major_mm": finite_or_none(hertz.semi_major) if hertz else None,
         "hertz_semi_minor_mm": hertz.semi_minor if hertz else None,
     }
 

@@ -160,6 +160,7 @@ QUANTITIES = {
     "peak_at_edge": "the largest pressure of a pair is at an edge of a flank, where it rises without limit as cells "
     "get finer, if the mate goes on beyond the edge; force and share hold",
     "rotation_not_small": "of loaded contact: the torque turns the member too far for linear elasticity",
+    "not_resolved": "of loaded contact: finer or wider cells go on changing the result, or it breaks equilibrium",
     "misalignment": "errors of the assembly, keys of [misalignment]; the contact is solved with them as they are",
     "sensitivity": "how much a result changes for a unit of a key, by exact derivatives",
     "drawing_data": "what the drawings of the members and of their assembly state of the nominal design",

@@ -172,8 +172,7 @@ def _inside(pair: LoadedPair) -> bool:
     """Whether the whole contact ellipse lies inside both flanks."""
     if pair.hertz is None:
         return False
-    scaled = pair.grid.centres / [pair.hertz.semi_major, pair.hertz.semi_minor]
-    return bool(np.all(pair.grid.inside[np.hypot(*scaled.T) < 1.0]))
+    return not pair.cut_off
 
 
 def _document(prepared: Prepared, checks: dict[str, Check], solution: Solution | None) -> dict:

@@ -2,13 +2,11 @@
 
 Half-space and free edges join the cells of one pair alone, teeth join all pairs through a few patches. The cells are
 therefore factorised pair by pair, and what teeth add is solved for in the patches: M. A. Woodbury, Inverting modified
-matrices (1950). On equal cells the half-space is a convolution: H. M. Stanley and T. Kato, An FFT-based method for
-rough surface contact, ASME Journal of Tribology 119 (1997).
+matrices (1950).
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -18,43 +16,31 @@ from scipy.linalg import LinAlgError, block_diag, cholesky, lu_factor, lu_solve,
 from meshwright.fe.compliance import ToothCompliance, without_negative
 from meshwright.fe.free_edges import free_edge_displacements
 from meshwright.fe.gap import ContactGrid
-from meshwright.fe.halfspace import equal_cells
+from meshwright.fe.halfspace import between_cells, symmetric
 from meshwright.fe.hexahedra import Floats, Ints
 from meshwright.fe.material import contact_modulus
 from meshwright.fe.pair import GearPair, PairTouch
 
+# What a cell gives way at least, in parts of what it does on a half-space.
+_LEAST_GIVING = 1e-6
+
 
 @dataclass(frozen=True)
 class PairCells:
-    """The n = side² cells of a pair, each of an ``area`` in mm².
+    """The n cells of a pair, with ``areas`` (n,) in mm².
 
-    half_space (side, side): displacements in mm by unit pressures at so many cells' distances along and across.
-    free (n, n): what free edges of the teeth near the cells add to them, None where there is none.
-    weights (n, M): of the displacements of its own teeth, the pinion's before the wheel's.
+    work (n, n): work in N mm that a unit pressure on one does on the displacement of another by a unit pressure there,
+    by half-space and free edges: symmetric (E. Betti, 1872).  weights (n, M): of the displacements of its own teeth,
+    the pinion's before the wheel's.
     """
 
-    half_space: Floats
-    free: Floats | None
+    work: Floats
     weights: Floats
-    area: float
-
-    def own(self, cells: Ints) -> Floats:
-        """Displacements (K, K) of some cells by unit pressures on them, by half-space and free edges."""
-        side = len(self.half_space)
-        along, across = np.divmod(cells.astype(np.int32), side)
-        apart = np.abs(along[:, None] - along) * np.int32(side) + np.abs(across[:, None] - across)
-        found = self.half_space.ravel().take(apart)
-        return found if self.free is None else found + self.free[np.ix_(cells, cells)]
+    areas: Floats
 
     def under(self, pressure: Floats) -> Floats:
         """Displacements (n,) of all cells under pressures (n,), by half-space and free edges."""
-        side = len(self.half_space)
-        count = 1 << (2 * side - 1).bit_length()
-        distance = np.abs(np.fft.fftfreq(count, 1.0 / count)).astype(int)
-        kernel = self.half_space[np.ix_(*(np.minimum(distance, side - 1),) * 2)]  # what is further reaches no cell
-        both = (np.fft.rfft2(of, (count, count)) for of in (kernel, pressure.reshape(side, side)))
-        found = np.fft.irfft2(np.prod(list(both), axis=0), (count, count))[:side, :side].ravel()
-        return found if self.free is None else found + self.free @ pressure
+        return self.work @ pressure / self.areas
 
 
 @dataclass(frozen=True)
@@ -80,22 +66,25 @@ class Cells:
             name: [free_edge_displacements(grid, name, of.material, compliance.get(name)) for grid in grids]
             for name, of in members
         }
-        free = [_summed([of[0] for of in both if of]) for both in zip(*edges.values(), strict=True)]
+        images = [[of[0] for of in both if of] for both in zip(*edges.values(), strict=True)]
+        works = [
+            positive(symmetric(between_cells(grid, modulus), grid.area), of)
+            for grid, of in zip(grids, images, strict=True)
+        ]
         later = tuple(contact.pairs_later for contact in contacts)
         weights: list[list[Floats]] = [[np.empty((len(grid.gap), 0))] for grid in grids]
         ways: list[list[Ints]] = [[np.empty(0, dtype=np.int64)] for _ in grids]
         blocks: list[Floats] = [np.empty((0, 0))]
         for name, tooth in compliance.items():
             known = tuple(None if of is None or of[1] is None else of[1].tobytes() for of in edges[name])
-            spans = [tooth.span(*grid.place[name][grid.inside].T) for grid in grids]
+            spans = [tooth.span(*grid.place[name].T) for grid in grids]
             begin = sum(len(block) for block in blocks) + np.cumsum([0] + [span.shape[1] for span in spans])
             for k, (grid, span) in enumerate(zip(grids, spans, strict=True)):
                 weights[k].append(tooth.weights(*grid.place[name].T) @ span)
                 ways[k].append(np.arange(begin[k], begin[k + 1]))
             blocks.append(_within(_smooth(tooth, later, known), spans))
         pairs = tuple(
-            PairCells(equal_cells(math.isqrt(len(g.gap)), g.half_major, g.half_minor, modulus), f, np.hstack(w), g.area)
-            for g, f, w in zip(grids, free, weights, strict=True)
+            PairCells(work, np.hstack(w), grid.area) for work, w, grid in zip(works, weights, grids, strict=True)
         )
         return cls(pairs, tuple(np.concatenate(of) for of in ways), block_diag(*blocks))
 
@@ -112,7 +101,7 @@ class Cells:
         """Displacements (N,) of all cells under pressures (N,)."""
         forces, parts = np.zeros(len(self.smooth)), self.of_pairs(pressure)
         for pair, at, own in zip(self.pairs, self.ways, parts, strict=True):
-            forces[at] += pair.area * (own @ pair.weights)
+            forces[at] += (pair.areas * own) @ pair.weights
         moved = self.smooth @ forces
         return np.concatenate([
             pair.under(own) + pair.weights @ moved[at]
@@ -121,10 +110,10 @@ class Cells:
 
     @property
     def largest(self) -> float:
-        """The largest displacement (mm) of a cell by a unit pressure on itself, free edges apart."""
+        """The largest displacement (mm) of a cell by a unit pressure on itself."""
         own = [
-            pair.half_space[0, 0]
-            + pair.area * np.sum((pair.weights @ self.smooth[np.ix_(at, at)]) * pair.weights, axis=1)
+            np.diagonal(pair.work) / pair.areas
+            + pair.areas * np.sum((pair.weights @ self.smooth[np.ix_(at, at)]) * pair.weights, axis=1)
             for pair, at in zip(self.pairs, self.ways, strict=True)
         ]
         return float(np.abs(np.concatenate(own)).max())
@@ -139,14 +128,12 @@ class Cells:
         lowers, joints = [], []
         joined = np.eye(len(self.smooth))
         for pair, at, begin, own in zip(self.pairs, self.ways, first, np.split(used, ends[:-1]), strict=True):
-            work = pair.own(own - begin)
-            work *= pair.area
+            cells = own - begin
             try:
-                # of a symmetric matrix; the transposed one is laid out as LAPACK overwrites it
-                lowers.append(cholesky(work.T, lower=True, overwrite_a=True, check_finite=False))
+                lowers.append(cholesky(pair.work[np.ix_(cells, cells)], lower=True, check_finite=False))
             except LinAlgError as error:
                 raise ArithmeticError("the pressures of the cells in contact are not determined") from error
-            joints.append(_lower_solved(lowers[-1], pair.area * pair.weights[own - begin]))
+            joints.append(_lower_solved(lowers[-1], pair.areas[cells, None] * pair.weights[cells]))
             joined[:, at] += self.smooth[:, at] @ (joints[-1].T @ joints[-1])
         return Bearing(ends, tuple(lowers), tuple(joints), self.ways, self.smooth, lu_factor(joined, True, False))
 
@@ -187,8 +174,20 @@ def _lower_solved(lower: Floats, values: Floats, transposed: bool = False) -> Fl
     return solve_triangular(lower, values, trans=int(transposed), lower=True, check_finite=False)
 
 
-def _summed(parts: list[Floats]) -> Floats | None:
-    return np.sum(parts, axis=0) if parts else None
+def positive(half_space: Floats, images: list[Floats]) -> Floats:
+    """Work (n, n) of a half-space and the images of its loads, of which the middles of cells leave what is positive.
+
+    Where cells are long and thin or smaller than their distance from an edge, middles are not the means that they stand
+    for: what is negative is left out.
+    """
+    size = np.sqrt(np.diagonal(half_space))
+    scaled = np.sum([half_space, *images], axis=0) / np.outer(size, size)
+    least = _LEAST_GIVING * np.eye(len(size))
+    try:
+        cholesky(scaled - least, check_finite=False)
+    except LinAlgError:
+        scaled = without_negative(scaled) + least
+    return scaled * np.outer(size, size)
 
 
 def _within(whole: Floats, spans: list[Floats]) -> Floats:

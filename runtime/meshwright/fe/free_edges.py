@@ -6,16 +6,18 @@ image. Teeth end at their tips under more than a right angle, which makes them s
 Source: R. Guilbault, A fast correction for elastic quarter-space applied to 3D modeling of edge contact problems, ASME
 Journal of Tribology 133 (2011) 031402.
 
-Finite elements of the whole tooth know its edges, but not closer than to a patch. Images are therefore taken of what is
-within a patch of the edge, by weights that fall from 1 at the edge to 0 a patch away, of the load and of the place that
-it moves alike. What the patches know of the same images is taken off the compliance of the tooth.
+Finite elements of the whole tooth know its edges, but not closer than to a patch. Images are therefore taken by weights
+that fall from 1 at the edge to 0 in the middle of the flank, of the load and of the place that it moves alike, and what
+the patches know of the same images is taken off the compliance of the tooth. Weights that fell within a patch or two
+would leave a ripple of that length along a line of contact.
 
 The images of loads on one side of an edge store a positive energy: 1/r is reflection positive (K. Osterwalder and R.
 Schrader, Axioms for Euclidean Green's functions, 1973), and weights on both sides are a congruence. Distances from an
 edge are therefore those of the flank's own coordinates: no cell lies beyond the edge that has its image. Displacements
-are those of the middles of cells, which leaves a remainder of either sign: what of it is negative is left out.
+are those of the middles of cells, which leaves a small remainder of either sign.
 """
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -23,24 +25,26 @@ from itertools import combinations
 
 import numpy as np
 
-from meshwright.fe.compliance import TOOTH_PATCHES, ToothCompliance, without_negative
-from meshwright.fe.gap import Bools, ContactGrid
-from meshwright.fe.halfspace import far_or_near, image_factor
-from meshwright.fe.hexahedra import Floats, Ints
+from meshwright.fe.compliance import ToothCompliance
+from meshwright.fe.gap import ContactGrid
+from meshwright.fe.halfspace import far_or_near, image_factor, symmetric
+from meshwright.fe.hexahedra import Floats
 from meshwright.fe.material import Material
 
-# Cells that show where an edge runs, at least.
-_FEWEST_CELLS = 3
+# Cells that show where an edge runs: one in so many, but so many at least.
+_NEAREST, _FEWEST_CELLS = 3, 3
 # Cells along either side of a patch that its mean takes.
 _PER_PATCH = 5
+# From so much of the flank away on an edge has no images.
+_WITHIN = 0.5
 
 
 @dataclass(frozen=True)
 class _Beside:
     """Cells beside a free edge: ``axis`` 0 for the tip, 1 for a face, at the ``end`` (0 or 1) of arc length or width.
 
-    away, along (N,): mm from the edge and along it; weight (N,): of their images; half: half lengths in mm of a cell
-    across the edge and along it.
+    away, along (N,): mm from the edge and along it; weight (N,): of their images; half (2, N): half lengths in mm of
+    the cells across the edge and along it.
     """
 
     axis: int
@@ -48,25 +52,25 @@ class _Beside:
     away: Floats
     along: Floats
     weight: Floats
-    half: tuple[float, float]
+    half: Floats
 
 
 def free_edge_displacements(
     grid: ContactGrid, name: str, material: Material, tooth: ToothCompliance | None
 ) -> tuple[Floats, Floats | None] | None:
-    """Displacements (N, N) in mm of the cells of a grid by unit pressures that free edges of a member add, and what the
-    patches of its tooth know of that: (P Q, P Q) by unit forces, None without a tooth.
+    """Work (N, N) of unit pressures on the displacements that free edges of a member add by unit pressures on cells of
+    a grid, N mm, and what the patches of its tooth know of these: (P Q, P Q) by unit forces, None without a tooth.
 
-    None where no edge is within a patch of the cells.
+    None where no edge is within half of the flank of the cells.
     """
-    (cells,) = np.nonzero(grid.inside)
-    edges = list(_edges(grid, name, cells, tooth.shape if tooth else TOOTH_PATCHES))
+    edges = list(_edges(grid, name))
     if not edges:
         return None
-    whole, sets = np.zeros((len(grid.gap),) * 2), list(_sets(edges))
-    images = np.sum([_images(of, material) for of in sets], axis=0)
-    near = np.flatnonzero(images.any(axis=0))
-    whole[np.ix_(cells[near], cells[near])] = without_negative(images[np.ix_(near, near)])
+    sets = list(_sets(edges))
+    whole = np.zeros((len(grid.area),) * 2)
+    for of in sets:
+        _add_images(whole, of, material)
+    whole = symmetric(whole, grid.area)
     if tooth is None:
         return whole, None
     return whole, np.sum([_known(tooth, material, tuple((e.axis, e.end) for e in of)) for of in sets], axis=0)
@@ -80,52 +84,60 @@ def _sets(edges: Sequence[_Beside]) -> Iterator[tuple[_Beside, ...]]:
                 yield of
 
 
-def _images(of: tuple[_Beside, ...], material: Material) -> Floats:
-    """(N, N) displacements in mm of cells by the images of unit pressures on all of them beyond an edge or a corner."""
+def _add_images(whole: Floats, of: tuple[_Beside, ...], material: Material) -> None:
+    """Add to (N, N) displacements in mm of cells those by the images of unit pressures on all of them beyond an edge or
+    a corner.
+    """
     first, *others = of
     weight = np.prod([edge.weight for edge in of], axis=0)
     (near,) = np.nonzero(weight)
-    beside = np.abs(first.along[near, None] - first.along[None, near])
-    for other in others:
-        beside = other.away[near, None] + other.away[None, near]
-    moved = far_or_near(
-        first.away[near, None] + first.away[None, near], beside, *first.half, material.plane_strain_modulus
-    )
-    found = np.zeros((len(weight),) * 2)
-    found[np.ix_(near, near)] = weight[near, None] * moved * weight[None, near]
-    return image_factor(material.poisson_ratio) ** len(of) * found
+    weight, from_edge, beside = weight[near], first.away[near], first.along[near]
+    from_others = [other.away[near] for other in others]
+
+    def apart(rows: slice) -> tuple[Floats, Floats]:
+        across = from_edge[rows, None] + from_edge
+        for from_other in from_others:
+            return across, from_other[rows, None] + from_other
+        return across, beside[rows, None] - beside
+
+    moved = far_or_near(apart, first.half[:, near], material.plane_strain_modulus)
+    moved *= image_factor(material.poisson_ratio) ** len(of) * weight[:, None]
+    moved *= weight
+    if len(near) == len(whole):
+        whole += moved
+    else:
+        whole[np.ix_(near, near)] += moved
 
 
-def _edges(grid: ContactGrid, name: str, cells: Ints, shape: tuple[int, int]) -> Iterator[_Beside]:
-    """The cells of a grid beside the free edges of a member, of each edge within a patch of them."""
-    known = [(0, 1.0)] + ([(1, 0.0), (1, 1.0)] if f"face of the {name}" in grid.beyond else [])
-    place, centres = grid.place[name][cells], grid.centres[cells]
-    for axis, end in known:
-        patches = np.abs(end - place[:, axis]) * shape[axis]
-        if len(cells) < _FEWEST_CELLS or not patches.min() < 1.0:
+def _edges(grid: ContactGrid, name: str) -> Iterator[_Beside]:
+    """The cells of a grid beside the free edges of a member, of each edge that has images of them."""
+    place, centres = grid.place[name], grid.centres
+    for axis, end in grid.free_edges[name]:
+        shares = np.abs(end - place[:, axis])
+        if len(centres) < _FEWEST_CELLS or not shares.min() < _WITHIN:
             continue
-        slope = _slope(centres, place[:, axis], patches)
+        slope = _slope(centres, place[:, axis], shares)
         steepness = float(np.hypot(*slope))
         if not steepness > 0.0:
             continue
         across = slope / steepness
-        size = float(np.hypot(across[0] * grid.half_major, across[1] * grid.half_minor))
-        away = patches / (shape[axis] * steepness)
+        size = np.hypot(across[0] * grid.half[:, 0], across[1] * grid.half[:, 1])
+        away = shares / steepness
         along = centres @ np.array([-across[1], across[0]])
-        yield _Beside(axis, end, away, along, _weight(patches), (size, grid.half_major * grid.half_minor / size))
+        yield _Beside(axis, end, away, along, _weight(shares), np.stack([size, grid.half.prod(axis=1) / size]))
 
 
-def _slope(centres: Floats, share: Floats, patches: Floats) -> Floats:
+def _slope(centres: Floats, share: Floats, away: Floats) -> Floats:
     """Change (2,) per mm of a share of the flank along the axes of the contact plane, beside an edge."""
-    chosen: Bools = patches <= max(1.0, float(np.sort(patches)[_FEWEST_CELLS - 1]))
-    linear = np.column_stack([np.ones(int(chosen.sum())), centres[chosen]])
-    _, *slope = np.linalg.lstsq(linear, share[chosen], rcond=None)[0]
+    nearest = np.argsort(away)[: max(_FEWEST_CELLS, len(away) // _NEAREST)]
+    linear = np.column_stack([np.ones(len(nearest)), centres[nearest]])
+    _, *slope = np.linalg.lstsq(linear, share[nearest], rcond=None)[0]
     return np.array(slope)
 
 
-def _weight(patches: Floats) -> Floats:
-    """1 at the edge, 0 from one patch away on, level at both."""
-    left = np.clip(1.0 - patches, 0.0, 1.0)
+def _weight(shares: Floats) -> Floats:
+    """1 at the edge, 0 from half of the flank away on, level at both."""
+    left = np.clip(1.0 - shares / _WITHIN, 0.0, 1.0)
     return left**2 * (3.0 - 2.0 * left)
 
 
@@ -137,21 +149,25 @@ def _known(tooth: ToothCompliance, material: Material, edges: tuple[tuple[int, f
     ends, n = dict(edges), _PER_PATCH
     lengths = [2.0 * half for half in tooth.half]
     # Patches along both axes from the edge, where there is one, and cells in them.
-    counts = [1 if axis in ends else tooth.shape[axis] for axis in (0, 1)]
+    counts = [math.ceil(_WITHIN * count) if axis in ends else count for axis, count in enumerate(tooth.shape)]
     index = np.stack(np.meshgrid(*(np.arange(k) for k in counts), *(np.arange(n),) * 2, indexing="ij")).reshape(4, -1)
     steps = index[:2] + (index[2:] + 0.5) / n
     half = (0.5 * lengths[0] / n, 0.5 * lengths[1] / n)
     cells = tuple(
         _Beside(
-            axis, end, lengths[axis] * steps[axis], lengths[1 - axis] * steps[1 - axis], _weight(steps[axis]),
-            (half[axis], half[1 - axis]),
+            axis, end, lengths[axis] * steps[axis], lengths[1 - axis] * steps[1 - axis],
+            _weight(steps[axis] / tooth.shape[axis]),
+            np.array([[half[axis]], [half[1 - axis]]]).repeat(len(steps[axis]), axis=1),
         )
         for axis, end in ends.items()
     )  # fmt: skip
     patches = counts[0] * counts[1]
-    moved = _images(cells, material).reshape(patches, n * n, patches, n * n).sum(axis=(1, 3))
-    chosen = [np.array([-1 if ends[axis] == 1.0 else 0]) if axis in ends else np.arange(tooth.shape[axis])
-              for axis in (0, 1)]  # fmt: skip
+    moved = np.zeros((patches * n * n,) * 2)
+    _add_images(moved, cells, material)
+    moved = moved.reshape(patches, n * n, patches, n * n).sum(axis=(1, 3))
+    chosen = [
+        np.arange(tooth.shape[axis])[:: -1 if ends.get(axis) == 1.0 else 1][: counts[axis]] for axis in (0, 1)
+    ]
     at = np.arange(tooth.shape[0] * tooth.shape[1]).reshape(tooth.shape)[np.ix_(*chosen)].ravel()
     whole = np.zeros((tooth.shape[0] * tooth.shape[1],) * 2)
     whole[np.ix_(at, at)] = moved / (n**2 * lengths[0] * lengths[1])

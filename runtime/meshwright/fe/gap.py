@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import KDTree
 
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.pair import GearPair, Member, PairTouch
@@ -19,31 +20,58 @@ Bools = NDArray[np.bool_]
 _PIERCED = 1e-9
 # So far beyond an edge, in parts of the flank, a place lies on it: what a corner of a mesh there is off by rounding.
 _ON_EDGE = 1e-9
+# Places along either side of a flank that tell how far it extends.
+_OUTLINE = 9
+# Beyond their outlines there may be more of the flanks between those places, in parts of their extent.
+_BEYOND = 0.05
+# Loads close about this part of the extent of the flanks.
+_CLOSED = 2e-4
+# Directions and distances, each half of the next, at which it is seen how far they do.
+_DIRECTIONS, _HALVINGS = 180, 16
 
 
 @dataclass(frozen=True)
 class ContactGrid:
-    """Cells of the tangent plane of one pair, N of them.
+    """Pressure cells of one pair, N = ``rows`` x ``columns`` rectangles that lie on both flanks, row by row.
 
-    centres (N, 2) in mm along (major, minor) axis from the contact point; half_major, half_minor: half lengths of a
-    cell.  gap (N,) in mm, positive apart.  points (N, 3): pinion surface points in the fixed frame.  inside (N,): both
-    flanks are there.  beyond: by the name of an edge, such as "tip of the wheel", the cells (N,) that lie beyond it.
-    place: for each member the fractions (N, 2) of flank arc length and face width.
+    centres (N, 2) in mm along the axes of the contact plane from the contact point.  half (N, 2): half lengths of a
+    cell along a row's way and across it.  frame (N, 3, 3): unit directions along, across and normal, out of the
+    pinion; points (N, 3): on the pinion's flank, fixed frame.  gap (N,) in mm along the normal, positive apart.
+    row_gap (rows,): the smallest in each row; offset (N,): mm across from the place of that.  free (2, N): cells
+    at a border of the grid, along and across, where the flanks go on.  beyond: by the name of an edge, such as "tip of
+    the wheel", the cells (N,) that it bounds.  place: for each member the fractions (N, 2) of flank arc length and face
+    width; free_edges: where it has free edges, 0 and 1 for arc length and width, and the fraction there.
     """
 
+    rows: int
+    columns: int
     centres: Floats
-    half_major: float
-    half_minor: float
-    gap: Floats
+    half: Floats
+    frame: Floats
     points: Floats
-    inside: Bools
+    gap: Floats
+    row_gap: Floats
+    offset: Floats
+    free: Bools
     beyond: dict[str, Bools]
     place: dict[str, Floats]
+    free_edges: dict[str, tuple[tuple[int, float], ...]]
 
     @property
-    def area(self) -> float:
-        """Area of a cell in mm^2."""
-        return 4.0 * self.half_major * self.half_minor
+    def area(self) -> Floats:
+        """Areas (N,) of the cells in mm^2."""
+        return 4.0 * self.half.prod(axis=1)
+
+    @property
+    def at_edges(self) -> Bools:
+        """The cells (N,) no further from one that an edge of a flank bounds than half of the widest row: there pressure
+        rises at an edge without limit, if the mate goes on beyond it.
+        """
+        bounded = np.any([np.zeros(len(self.gap), dtype=bool), *self.beyond.values()], axis=0)
+        if not bounded.any():
+            return bounded
+        distance, _ = KDTree(self.points[bounded]).query(self.points)
+        return distance <= self.columns * self.half[:, 1].max()
 
 
 @dataclass(frozen=True)
@@ -59,15 +87,46 @@ class ContactPlane:
 
     @classmethod
     def of(cls, gear: GearPair, contact: PairTouch, angles: tuple[float, float]) -> ContactPlane:
-        """angles: pinion and wheel angle in rad of the whole bodies."""
+        """angles: pinion and wheel angle in rad of the whole bodies.
+
+        The major axis is the direction of the contact, and of an edge that in which most of the gap is closed.
+        """
         touch = contact.touch
-        axes = np.stack([touch.major_direction, np.cross(touch.normal, touch.major_direction), touch.normal])
+        if np.isfinite(touch.major_direction).all():
+            return cls._along(gear, contact, angles, touch.major_direction)
+        some = np.linalg.svd(touch.normal[None])[2][1]
+        plane = cls._along(gear, contact, angles, some)
+        return cls._along(gear, contact, angles, plane._longest())
+
+    @classmethod
+    def _along(
+        cls, gear: GearPair, contact: PairTouch, angles: tuple[float, float], major: Floats
+    ) -> ContactPlane:
+        touch = contact.touch
+        axes = np.stack([major, np.cross(touch.normal, major), touch.normal])
         flanks = {
             name: _Flank.of(member, angle - contact.pairs_later * member.pitch, touch.point, axes,
                             gear.deviations.get(name))
             for name, member, angle in (("pinion", gear.pinion, angles[0]), ("wheel", gear.wheel, angles[1]))
         }  # fmt: skip
         return cls(contact, axes, flanks)
+
+    def _longest(self) -> Floats:
+        """Unit direction (3,) in the plane in which the place about the contact is longest where both flanks are less
+        than what loads close apart.
+        """
+        size = float(np.min(np.diff(self.extents(), axis=0)))
+        angles = 2.0 * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
+        ways = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        radii = size * 0.5 ** np.arange(_HALVINGS)[::-1]
+        gap, inside = self.gaps(self.feet((ways[:, None] * radii[:, None]).reshape(-1, 2)))
+        closed = (inside & (gap < _CLOSED * size + np.nanmin(np.where(inside, gap, np.nan), initial=0.0))).reshape(
+            len(angles), -1
+        )
+        count = np.where(closed.all(axis=1), len(radii), np.argmin(closed, axis=1))
+        reach = np.where(count > 0, radii[count - 1], 0.0)
+        _, axes = np.linalg.eigh(np.einsum("k,ki,kj->ij", reach**4, ways, ways))
+        return axes[:, 1] @ self.axes[:2]
 
     def feet(self, centres: Floats) -> Floats:
         """Points (N, 3) of the plane, fixed frame, that are (N, 2) mm from the contact along its axes."""
@@ -77,63 +136,56 @@ class ContactPlane:
         """Gap (N,) in mm of the flanks along the normals through points (N, 3), and where both flanks are (N,)."""
         return self.gap(self.footprints(feet))
 
-    def footprints(self, feet: Floats) -> dict[str, _Footprint]:
+    def footprints(self, feet: Floats) -> dict[str, Footprint]:
         """Both flanks as the normals through points (N, 3) meet them."""
         return {name: flank.under(feet) for name, flank in self.flanks.items()}
 
-    def gap(self, of: dict[str, _Footprint]) -> tuple[Floats, Bools]:
+    def gap(self, of: dict[str, Footprint]) -> tuple[Floats, Bools]:
         """As :meth:`gaps`, of footprints."""
         pinion, wheel = of["pinion"], of["wheel"]
         gap = (wheel.points - pinion.points) @ self.axes[2] + wheel.excess - pinion.excess
         return gap, pinion.inside & wheel.inside
 
-
-def cell_centres(reach: Floats, cells: int, centre: Floats) -> Floats:
-    """Middles (cells^2, 2) of the equal cells of a rectangle of half sides ``reach`` (2,) about a centre (2,)."""
-    ticks = (2.0 * np.arange(cells) + 1.0) / cells - 1.0
-    along = (centre[k] + ticks * reach[k] for k in (0, 1))
-    return np.stack([axis.ravel() for axis in np.meshgrid(*along, indexing="ij")], axis=1)
-
-
-def contact_grid(plane: ContactPlane, reach: Floats, cells: int, centre: Floats | None = None) -> ContactGrid:
-    """Grid of cells x cells around a contact point.
-
-    reach: half lengths (2,) of the grid along the major and minor axis in mm; centre: of the grid (2,) along them, by
-    default the contact point.
-    """
-    centres = cell_centres(reach, cells, np.zeros(2) if centre is None else centre)
-    feet = plane.feet(centres)
-    surfaces = plane.footprints(feet)
-    gap, inside = plane.gap(surfaces)
-    beyond = {f"{edge} of the {name}": cells for name, f in surfaces.items() for edge, cells in f.beyond.items()}
-    place = {
-        name: flank.place(surfaces[name], None if centre is None else feet.mean(axis=0))
-        for name, flank in plane.flanks.items()
-    }
-    half = float(reach[0]) / cells, float(reach[1]) / cells
-    return ContactGrid(centres, *half, gap, surfaces["pinion"].points, inside, beyond, place)
+    def extents(self) -> Floats:
+        """Coordinates (2, 2) in mm along both axes between which both flanks are, somewhat beyond their edges."""
+        each = np.array([flank.extents(self.contact.touch.point, self.axes[:2]) for flank in self.flanks.values()])
+        low, high = each[:, 0].max(axis=0), each[:, 1].min(axis=0)
+        return np.stack([low - _BEYOND * (high - low), high + _BEYOND * (high - low)])
 
 
 @dataclass(frozen=True)
-class _Footprint:
+class Footprint:
     """Where the normals of the tangent plane through N feet pierce a flank: fixed frame.
 
-    excess (N,): what a measured flank adds to its height along the normal, mm. fraction, section (N,): of the way from
-    the first to the last profile parameter of its section, and the section itself; not a number where there is none.
+    normals (N, 3): out of the material. margins: by the name of an edge, how far (N,) within it, in parts of the flank,
+    negative beyond. excess (N,): what a measured flank adds to its height along the normal, mm. fraction, section (N,):
+    of the way from the first to the last profile parameter of its section, and the section itself; not a number where
+    there is none.
     """
 
     points: Floats
-    inside: Bools
-    beyond: dict[str, Bools]
+    normals: Floats
+    pierced: Bools
+    margins: dict[str, Floats]
     excess: Floats
     fraction: Floats
     section: Floats
+
+    @property
+    def margin(self) -> Floats:
+        """The least of the margins (N,), minus infinity where the normal meets no surface."""
+        return np.where(self.pierced, np.min(list(self.margins.values()), axis=0), -np.inf)
+
+    @property
+    def inside(self) -> Bools:
+        """Where the flank is (N,)."""
+        return self.margin >= -_ON_EDGE
 
 
 @dataclass(frozen=True)
 class _Flank:
     """The flank of a member at ``pose`` (4, 4); ``axes`` (3, 3) of the tangent plane in the body frame; ``rail``: its
-    section at the contact.
+    section at the contact; ``start``: parameters near which the plane's normals meet it.
     """
 
     form: ToothForm
@@ -141,6 +193,7 @@ class _Flank:
     pose: Floats
     axes: Floats
     rail: Rail
+    start: tuple[float, float]
     deviations: Callable[[Floats, Floats], tuple[Floats, Bools]] | None
 
     @classmethod
@@ -152,48 +205,54 @@ class _Flank:
         curves = form.side(member.working).flank
         if not isinstance(curves.surface, Smooth):
             raise TypeError("a flank that does not tell where lines meet it is met by no normals")
-        rail = _rail_at(form, curves, _in_body(pose, point))
-        return cls(form, curves.surface, pose, axes @ pose[:3, :3], rail, deviations)
+        foot, turned = _in_body(pose, point), axes @ pose[:3, :3]
+        rail = _rail_at(form, curves, foot)
+        start = _below(curves.surface, rail, foot, turned[:2])
+        return cls(form, curves.surface, pose, turned, rail, start, deviations)
 
-    def under(self, feet: Floats) -> _Footprint:
+    def under(self, feet: Floats) -> Footprint:
         """Where normals through feet (N, 3) meet it."""
         curves, rotation, feet_body = self.rail.curves, self.pose[:3, :3], _in_body(self.pose, feet)
-        profile, _, points = self.surface.pierced(feet_body, self.axes[:2], self._below(feet_body.mean(axis=0)))
+        profile, _, points, normals = self.surface.pierced(feet_body, self.axes[:2], self.start)
         pierced = np.abs((points - feet_body) @ self.axes[:2].T).max(axis=1) < _PIERCED
         points = np.where(np.isfinite(points), points, feet_body)
         section = curves.section.at(points)
         low, high = self.form.faces
-        held = np.clip(section, low, high)
+        pierced &= np.isfinite(section)
+        held = np.clip(np.where(pierced, section, low), low, high)
         first, last = curves.first(held), curves.last(held)
         fraction, across = (profile - first) / (last - first), (section - low) / (high - low)
-        beyond = {
-            "fillet": pierced & (fraction < -_ON_EDGE),
-            "tip": pierced & (fraction > 1.0 + _ON_EDGE),
-            "end of the portion" if self.form.cut_ends else "face": pierced & (np.abs(across - 0.5) > 0.5 + _ON_EDGE),
-        }
+        within = np.minimum(across, 1.0 - across)
+        face = "end of the portion" if self.form.cut_ends else "face"
+        margins = {"fillet": fraction, "tip": 1.0 - fraction, face: within}
         excess = np.zeros(len(points))
         if self.deviations is not None:
             excess, measured = self.deviations(points, self.axes[2])
-            beyond["measured grid"] = pierced & ~measured
-        inside = pierced & ~np.any(list(beyond.values()), axis=0)
-        return _Footprint(points @ rotation.T + self.pose[:3, 3], inside, beyond, excess, fraction, section)
+            margins["measured grid"] = np.where(measured, 1.0, -1.0)
+        placed = points @ rotation.T + self.pose[:3, 3]
+        return Footprint(placed, normals @ rotation.T, pierced, margins, excess, fraction, section)
 
-    def _below(self, foot: Floats) -> tuple[float, float]:
-        """Parameters where the normal through a foot (3,) meets it, or of a point of the section next to that."""
-        near = _nearest(self.rail, foot)
-        profile, face, _ = self.surface.pierced(foot[None], self.axes[:2], near)
-        return (float(profile[0]), float(face[0])) if np.isfinite(profile[0]) else near
+    def extents(self, point: Floats, axes: Floats) -> Floats:
+        """Smallest and largest coordinates (2, 2) of the flank along directions (2, 3) from a point (3,), mm."""
+        share, curves = np.linspace(0.0, 1.0, _OUTLINE), self.rail.curves
+        sections = self.form.faces[0] + share * (self.form.faces[1] - self.form.faces[0])
+        first, last = curves.first(sections)[:, None], curves.last(sections)[:, None]
+        points = curves.points(sections, first + share * (last - first)).reshape(-1, 3)
+        at = (points @ self.pose[:3, :3].T + self.pose[:3, 3] - point) @ axes.T
+        return np.stack([at.min(axis=0), at.max(axis=0)])
 
-    def place(self, of: _Footprint, middle: Floats | None) -> Floats:
-        """Fractions (N, 2) of flank arc length, in the section of the contact or at another ``middle`` (3,), fixed
-        frame, and of face width.
+    @property
+    def free_edges(self) -> tuple[tuple[int, float], ...]:
+        """The edges beyond which there is no material: axis of the place, 0 or 1, and the fraction at the edge."""
+        return ((0, 1.0),) if self.form.cut_ends else ((0, 1.0), (1, 0.0), (1, 1.0))
+
+    def place(self, of: Footprint, middle: Floats) -> Floats:
+        """Fractions (N, 2) of flank arc length, in the section next to a ``middle`` (3,), fixed frame, and of face
+        width.
         """
-        rail = self.rail
-        if middle is not None:
-            rail = _rail_at(self.form, rail.curves, _in_body(self.pose, middle))
+        rail = _rail_at(self.form, self.rail.curves, _in_body(self.pose, middle))
         low, high = self.form.faces
-        # A cell off the flank has no pressure; its gap and its place only have to be finite.
-        return np.stack([_arc_share(rail, np.nan_to_num(of.fraction)), (of.section - low) / (high - low)], axis=1)
+        return np.stack([_arc_share(rail, of.fraction), (of.section - low) / (high - low)], axis=1)
 
 
 def _in_body(pose: Floats, points: Floats) -> Floats:
@@ -203,6 +262,15 @@ def _in_body(pose: Floats, points: Floats) -> Floats:
 def _rail_at(form: ToothForm, curves: SectionCurves, point: Floats) -> Rail:
     """The section of a flank that is next to a point (3,), body frame."""
     return curves.rail(np.clip(np.atleast_1d(curves.section.at(point)), *form.faces))
+
+
+def _below(surface: Smooth, rail: Rail, foot: Floats, plane: Floats) -> tuple[float, float]:
+    """Parameters where the normal of a plane (2, 3) through a foot (3,) meets a surface, or of a point of the section
+    next to that.
+    """
+    near = _nearest(rail, foot)
+    profile, face, *_ = surface.pierced(foot[None], plane, near)
+    return (float(profile[0]), float(face[0])) if np.isfinite(profile[0]) else near
 
 
 def _nearest(rail: Rail, point: Floats) -> tuple[float, float]:

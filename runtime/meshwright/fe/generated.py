@@ -30,9 +30,10 @@ class _Generated:
         found = self.flank(np.stack([profile.ravel(), face.ravel()], axis=1))
         return found.points.reshape(*profile.shape, 3), found.normals.reshape(*profile.shape, 3)
 
-    def pierced(self, feet: Floats, plane: Floats, start: tuple[float, float]) -> tuple[Floats, Floats, Floats]:
+    def pierced(self, feet: Floats, plane: Floats, start: tuple[float, float]) -> tuple[Floats, ...]:
         q = pierced(self.flank, feet, plane, np.array(start))
-        return q[:, 0], q[:, 1], self.flank(q).points
+        found = self.flank(q)
+        return q[:, 0], q[:, 1], found.points, found.normals
 
     def on_sections(self, profile: Floats, factors: Floats, values: Floats, start: Floats) -> tuple[Floats, ...]:
         near = np.stack([profile, start], axis=1)
@@ -93,10 +94,10 @@ class _TurnedRows:
 class _Turned(_TurnedRows):
     surface: Cut
 
-    def pierced(self, feet: Floats, plane: Floats, start: tuple[float, float]) -> tuple[Floats, Floats, Floats]:
+    def pierced(self, feet: Floats, plane: Floats, start: tuple[float, float]) -> tuple[Floats, ...]:
         back = self.rotation.T
-        profile, face, points = self.surface.pierced(feet @ back, plane @ back, (start[0], start[1] - self.shift))
-        return profile, face + self.shift, points @ self.rotation
+        profile, face, *found = self.surface.pierced(feet @ back, plane @ back, (start[0], start[1] - self.shift))
+        return profile, face + self.shift, *(of @ self.rotation for of in found)
 
     def on_sections(self, profile: Floats, factors: Floats, values: Floats, start: Floats) -> tuple[Floats, ...]:
         turned_back = np.column_stack([factors[:, :3] @ self.rotation.T, factors[:, 3]])

@@ -4,37 +4,42 @@ Source: A. E. H. Love, The stress produced in a semi-infinite solid by pressure 
 K. L. Johnson, Contact Mechanics, (3.25).
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
+from meshwright.fe.gap import ContactGrid
 from meshwright.fe.hexahedra import Floats
 
 # A force spread over a rectangle acts as one at its centre beyond so many of its longer half sides.
-_FAR = 8.0
+_FAR = 6.0
+# Places at which displacements are found at once.
+_AT_ONCE = 32
+# Less than any sum of lengths in mm.
+_LEAST = 1e-300
 
 
-def rectangle_displacement(x: Floats, y: Floats, half_x: float, half_y: float, modulus: float) -> Floats:
+def rectangle_displacement(
+    x: Floats, y: Floats, half_x: Floats | float, half_y: Floats | float, modulus: float
+) -> Floats:
     """Displacement in mm at (x, y) mm from the centre of a rectangle under a pressure of 1 MPa.
 
     half_x, half_y: half lengths of its sides; modulus: plane-strain modulus E/(1 - nu^2), or the contact modulus
     for the sum over two bodies.
     """
-    corners = (
-        (_corner(x + half_x, y + half_y), 1.0),
-        (_corner(x - half_x, y + half_y), -1.0),
-        (_corner(x + half_x, y - half_y), -1.0),
-        (_corner(x - half_x, y - half_y), 1.0),
-    )
-    return np.sum([sign * value for value, sign in corners], axis=0) / (np.pi * modulus)
+    x, y = np.abs(x), np.abs(y)
+    near_x, far_x, near_y, far_y = x - half_x, x + half_x, y - half_y, y + half_y
+    corner, beside, above, away = (np.sqrt(u**2 + v**2) for v in (near_y, far_y) for u in (near_x, far_x))
+    found = far_x * np.log((far_y + away) / (near_y + beside)) + far_y * np.log((far_x + away) / (near_x + above))
+    found += near_x * np.log(_sum(near_y, corner, near_x) / (far_y + above))
+    found += near_y * np.log(_sum(near_x, corner, near_y) / (far_x + beside))
+    return found / (np.pi * modulus)
 
 
-def _corner(x: Floats, y: Floats) -> Floats:
-    return x * _inverse_sinh_ratio(y, x) + y * _inverse_sinh_ratio(x, y)
-
-
-def _inverse_sinh_ratio(numerator: Floats, denominator: Floats) -> Floats:
-    """asinh(numerator / |denominator|); zero where the denominator is, since the product with it vanishes."""
-    size = np.abs(denominator)
-    return np.arcsinh(np.divide(numerator, size, out=np.zeros_like(numerator), where=size > 0.0))
+def _sum(leg: Floats, hypotenuse: Floats, other_leg: Floats) -> Floats:
+    """leg + hypotenuse of right triangles to all digits where the leg is negative; never 0, since it multiplies one."""
+    stable = np.where(leg < 0.0, other_leg**2 / np.maximum(hypotenuse + np.abs(leg), _LEAST), leg + hypotenuse)
+    return np.maximum(stable, _LEAST)
 
 
 def image_factor(poisson_ratio: float) -> float:
@@ -47,21 +52,57 @@ def image_factor(poisson_ratio: float) -> float:
     return 1.29 - (0.08 - 0.5 * poisson_ratio) / (1.0 - poisson_ratio)
 
 
-def far_or_near(x: Floats, y: Floats, half_x: float, half_y: float, modulus: float) -> Floats:
-    """As :func:`rectangle_displacement`, far away that of the same force at a point, there within 0.5 % of it."""
-    distance = np.hypot(x, y)
-    near = distance < _FAR * max(half_x, half_y)
-    found = 4.0 * half_x * half_y / (np.pi * modulus * np.where(near, 1.0, distance))
-    found[near] = rectangle_displacement(x[near], y[near], half_x, half_y, modulus)
+def far_or_near(apart: Callable[[slice], tuple[Floats, Floats]], half: Floats, modulus: float) -> Floats:
+    """(N, N) as :func:`rectangle_displacement` at N places by rectangles of half sides ``half`` (2, N).
+
+    apart: of some of the places, x and y (…, N) from the centres of all rectangles; a few places at a time, that the
+    processor has at hand what it works on.  Far away the rectangle's force and its second moments act at its centre,
+    there within 2e-4 of it.
+    """
+    count = half.shape[1]
+    found = np.empty((count, count))
+    force = 4.0 * half.prod(axis=0) / (np.pi * modulus)
+    squares, reach = half**2 / 6.0, (_FAR * half.max(axis=0)) ** 2
+    for begin in range(0, count, _AT_ONCE):
+        rows = slice(begin, begin + _AT_ONCE)
+        x, y = apart(rows)
+        x2, y2 = x**2, y**2
+        square = x2 + y2
+        near = np.nonzero(square < reach)
+        square[near] = 1.0
+        moments = 3.0 * (squares[0] * x2 + squares[1] * y2) / square - squares.sum(axis=0)
+        found[rows] = force * (1.0 + moments / square) / np.sqrt(square)
+        across, along = (of[near[1]] for of in half)
+        found[rows][near] = rectangle_displacement(x[near], y[near], across, along, modulus)
     return found
 
 
-def equal_cells(count: int, half_x: float, half_y: float, modulus: float) -> Floats:
-    """(count, count) displacement at the centre of a rectangular cell so many cells away along x and along y, by a unit
-    pressure on an equal one.
+def between_cells(grid: ContactGrid, modulus: float) -> Floats:
+    """Displacements (N, N) in mm at the centres of cells by a unit pressure on each, laid flat where that is pressed.
+
+    Cells of a bent strip are in planes of their own; where these are far apart it is their distance that counts.
     """
-    x, y = np.meshgrid(2.0 * half_x * np.arange(count), 2.0 * half_y * np.arange(count), indexing="ij")
-    return rectangle_displacement(x, y, half_x, half_y, modulus)
+    points = grid.points - grid.points.mean(axis=0)
+    ways = [np.ascontiguousarray(grid.frame[:, axis].T) for axis in range(3)]
+    own = [np.einsum("ni,in->n", points, way) for way in ways]
+
+    def apart(rows: slice) -> tuple[Floats, Floats]:
+        x, y, z = (points[rows] @ way - at for way, at in zip(ways, own, strict=True))
+        flat = x**2 + y**2
+        stretch = np.sqrt(1.0 + z**2 / np.where(flat > 0.0, flat, 1.0))
+        return x * stretch, y * stretch
+
+    return far_or_near(apart, grid.half.T, modulus)
+
+
+def symmetric(displacements: Floats, areas: Floats) -> Floats:
+    """Work (N, N) of unit pressures on the displacements (N, N) of cells with areas (N,) by unit pressures on others.
+
+    Of two loads each does the same work on the other's displacement (E. Betti, 1872), up to what the centres of cells
+    of unequal size miss of their means.
+    """
+    work = areas[:, None] * displacements
+    return 0.5 * (work + work.T)
 
 
 def mean_displacement(offset_x: Floats, offset_y: Floats, half_x: float, half_y: float, modulus: float) -> Floats:

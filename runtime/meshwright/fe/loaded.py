@@ -1,41 +1,67 @@
 """Semi-analytic loaded contact: exact gaps, half-space cells, tooth compliance, one rigid rotation.
 
 Unknowns are the pressures of all cells of all pairs and the rotation of the loaded member; an active set finds the
-cells that touch.
+cells that touch. The cells divide a strip along the curve of smallest gap (``strip``). They are laid out first where a
+bed of springs under each strip closes the gap, then where there was pressure, wider where that reached a free border of
+the grid, and finer until rotation, forces and peaks stay as they are. What is not settled then, or carries its load
+with less pressure than a line can, is told as not resolved.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.ndimage import binary_dilation
+from scipy.optimize import brentq
+from scipy.spatial import KDTree
 
 from meshwright.fe.cells import Cells
 from meshwright.fe.compliance import ToothCompliance
-from meshwright.fe.gap import Bools, ContactGrid, ContactPlane, contact_grid
+from meshwright.fe.gap import Bools, ContactGrid, ContactPlane
 from meshwright.fe.gate import LARGEST_ROTATION
-from meshwright.fe.hertz import HertzContact
+from meshwright.fe.hertz import HertzContact, line_contact
 from meshwright.fe.hexahedra import Floats
+from meshwright.fe.material import contact_modulus
 from meshwright.fe.model import Load, hertz_of, loaded_side
-from meshwright.fe.overlap import fitted_grid, overlap_grid
 from meshwright.fe.pair import GearPair, Member, PairTouch, first_touches, lever_arm, unloaded_wheel_angle
+from meshwright.fe.strip import Strip, Window
 from meshwright.fe.touching import active_set
 
-_CELLS = 31
-_FIRST_CELLS = 15
-_REACH = 1.35
+# Rows and columns of cells: where the load is found first, and finer and finer ones, most of all along: there peaks are
+# narrow, as where a relief begins.
+_FIRST_CELLS = 15, 11
+_CELLS = (21, 15), (31, 21), (47, 25), (71, 29)
+# The first of these that may be the last.
+_ENOUGH = 1
+# What may change with finer cells: rotation, forces, and peaks of pressure, of pairs that carry much.
+_SETTLED = 0.01
+# How often the cells are laid out wider where pressure reaches a free border of theirs.
+_WIDENINGS = 5
+# How much wider.
+_WIDER = 1.5
+# Room beyond what is pressed, in parts of that across and of the gap that is closed.
+_ROOM = 0.3
+# A line of a half-space gives way under its load per length like springs of so many contact moduli.
+_SPRINGS = 0.45
+# Strips end no sooner than where gaps are so large, in parts of what the load closes: along lines they are all alike.
+_LEAST_CLOSED = 0.4
+# Those that pressure has reached the end of end beyond all that is closed.
+_ALL_CLOSED = 1.1
+# Cells that springs close reach further than pressure does.
+_REACH = 0.8
 _LEAST_SHARE = 0.05
-# An ellipse of which no more than this lies on both flanks is no guide to where they touch.
-_LEAST_USED = 0.15
 #: Beyond so many times the rotation up to which there are figures, more cells are not worth their while.
 FAR_TOO_FAR = 2.0
 # Flanks touch where they would overlap by so much of what is closed there, about: by half of it under Hertz's ellipse.
 _TOUCHING = 0.5
 # Teeth give way about so many times as far as the half-spaces of their contact.
 _TEETH_SOFTER = 2.0
+# Peaks below this part of the least that lines can carry the load with are false.
+_POSSIBLE = 0.98
+# Moments of pressures and the torque differ by less than this part.
+_EQUILIBRIUM = 1e-3
 
 
 @dataclass(frozen=True)
@@ -58,33 +84,27 @@ class LoadedPair:
 
     @property
     def peaks_at_edge(self) -> bool:
-        """Whether an edge of a flank bounds the cell of the largest pressure."""
-        peak = self.pressures == self.pressures.max()
-        return self.force > 0.0 and bool(np.any(_and_around(peak) & ~self.grid.inside))
+        """Whether the largest pressure is at an edge of a flank."""
+        return self.force > 0.0 and bool(self.grid.at_edges[np.argmax(self.pressures)])
 
     @property
     def cut_off(self) -> bool:
         """Whether an edge of a flank bounds the contact area somewhere."""
-        return bool(np.any(self._area_and_around & ~self.grid.inside))
+        return bool(self.edges)
 
     @property
     def edges(self) -> tuple[str, ...]:
-        """The edges that do, such as "tip of the wheel", as far as the normals of the contact plane meet the flank."""
-        return tuple(name for name, cells in self.grid.beyond.items() if np.any(cells & self._area_and_around))
+        """The edges that do, such as "tip of the wheel"."""
+        return tuple(name for name, cells in self.grid.beyond.items() if np.any(self.pressures[cells] > 0.0))
 
     @property
     def line(self) -> Floats:
         """Where the pressure is highest across the contact area, (M, 3) from end to end of it on the pinion's flank:
         the line of contact under load, fixed frame.
         """
-        side = math.isqrt(len(self.pressures))
-        rows = self.pressures.reshape(side, side)
-        highest = side * np.arange(side) + rows.argmax(axis=1)
+        rows = self.pressures.reshape(self.grid.rows, self.grid.columns)
+        highest = self.grid.columns * np.arange(self.grid.rows) + rows.argmax(axis=1)
         return self.grid.points[highest[rows.max(axis=1) > 0.0]]
-
-    @property
-    def _area_and_around(self) -> Bools:
-        return _and_around(self.pressures > 0.0)
 
 
 @dataclass(frozen=True)
@@ -93,6 +113,7 @@ class LoadedContact:
 
     rotation: rotation in rad of the loaded member in the sense of its torque, from the first unloaded touch.
     transmission_error: loaded wheel angle less ratio times pinion angle, rad; unloaded_error: that of rigid teeth.
+    unresolved: why these are no figures to go by, empty where they are.
     """
 
     pinion_angle: float
@@ -101,6 +122,7 @@ class LoadedContact:
     rotation: float
     transmission_error: float
     unloaded_error: float
+    unresolved: str
 
     @property
     def mesh_stiffness(self) -> float:
@@ -127,48 +149,20 @@ def loaded_contact(
     member, direction = loaded_side(gear, load)
     wheel_angle = unloaded_wheel_angle(gear, contacts)
     places = tuple(_Place.of(gear, member, contact, (pinion_angle, wheel_angle)) for contact in contacts)
-    used, forces, rotation = places, np.array([load.torque / place.arm for place in places]), math.nan
-    passes = [_FIRST_CELLS, _CELLS]
-    before: _Before = {}
-    if any(place.contact.touch.edge for place in places):
-        passes, rotation = [_FIRST_CELLS, *passes], _first_rotation(gear, places, load)
-    for cells in passes:
-        # The first pass finds the forces, the last fits each grid to its own ellipse, or to what the load closes.
-        least = _LEAST_SHARE * load.torque
-        known = {place.contact.pairs_later: force for place, force in zip(used, forces, strict=True)}
-        laid = [
-            (place, _grid(place, max(known.get(place.contact.pairs_later, 0.0), least / place.arm), rotation, cells))
-            for place in places
-        ]
-        used, grids = tuple(place for place, grid in laid if grid), [grid for _, grid in laid if grid]
-        start = [
-            _likely(place, grid, before.get(place.contact.pairs_later), rotation)
-            for place, grid in zip(used, grids, strict=True)
-        ]
-        pressures, rotation = _equilibrium(gear, used, grids, load, compliance, start)
-        before = {of.contact.pairs_later: (g, p) for of, g, p in zip(used, grids, pressures, strict=True)}
-        forces = np.array([grid.area * p.sum() for grid, p in zip(grids, pressures, strict=True)])
-        if abs(rotation) > FAR_TOO_FAR * LARGEST_ROTATION:
-            break
+    found = _resolved(gear, places, load, compliance)
     solved = tuple(
-        LoadedPair(
-            place.contact, g, p, float(f), place.apart,
-            hertz_of(gear, place.contact, float(f)) if f > 0.0 and not place.contact.touch.edge else None,
-        )
-        for place, g, p, f in zip(used, grids, pressures, forces, strict=True)
-    )  # fmt: skip
+        LoadedPair(place.contact, grid, p, float(f), place.apart, place.hertz(float(f)))
+        for place, grid, p, f in zip(found.places, found.grids, found.pressures, found.forces, strict=True)
+    )
+    rotation = found.rotation
     unloaded = wheel_angle - gear.ratio * pinion_angle
     # The driven side lags: the pinion winds up ahead of the wheel by the rotation.
     wound = direction * rotation * member.turning
     lag = -gear.ratio * wound if load.member == "pinion" else wound
-    return LoadedContact(pinion_angle, load, solved, rotation, unloaded + lag, unloaded)
+    return LoadedContact(pinion_angle, load, solved, rotation, unloaded + lag, unloaded, found.unresolved)
 
 
-# By pair (``pairs_later``) the cells of the pass before and their pressures.
-_Before = dict[int, tuple[ContactGrid, Floats]]
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Place:
     """First contact of a pair with the members at ``angles`` in rad: lever ``arm`` of the loaded member there, and how
     far the flanks are ``apart`` there along the normal when the first of all pairs touches, mm.
@@ -188,77 +182,256 @@ class _Place:
         return cls(gear, contact, angles, abs(lever_arm(member, point, normal)), apart)
 
     @cached_property
-    def plane(self) -> ContactPlane:
-        """The tangent plane there with the flanks over it."""
-        return ContactPlane.of(self.gear, self.contact, self.angles)
+    def strip(self) -> Strip:
+        """The strip of the tangent plane there with the flanks over it."""
+        return Strip.of(ContactPlane.of(self.gear, self.contact, self.angles))
+
+    @property
+    def modulus(self) -> float:
+        """Contact modulus in MPa."""
+        return contact_modulus(self.gear.pinion.material, self.gear.wheel.material)
+
+    def spring_force(self, closing: float) -> float:
+        """Force in N of springs under the strip where the load closes so much, mm."""
+        profile = self.strip.profile
+        return _SPRINGS * self.modulus * float(profile.opened(closing) @ profile.length)
+
+    def hertz(self, force: float) -> HertzContact | None:
+        """Hertz contact under a force in N; None without one, and where an edge touches."""
+        touch = self.contact.touch
+        if force <= 0.0 or touch.edge:
+            return None
+        if touch.curvature_min > 0.0:
+            return hertz_of(self.gear, self.contact, force)
+        profile = self.strip.profile
+        on_both = np.isfinite(profile.gap)
+        across = float(profile.curvature[np.flatnonzero(profile.along == 0.0)[0]])
+        poisson_ratio = self.gear.pinion.material.poisson_ratio
+        return line_contact(force / float(profile.length[on_both].sum()), across, self.modulus, poisson_ratio)
+
+    def least_peak(self, force: float, closing: float, width: float) -> float:
+        """The peak in MPa below which nothing carries a force in N where the load closes so much and touches so wide:
+        that of a line under one pressure all along. Source: K. L. Johnson, Contact Mechanics (1985), section 4.2(c).
+        """
+        profile = self.strip.profile
+        across = np.fmin(self.strip.curvature(profile.along, 0.5 * width), profile.curvature)
+        (used,) = np.nonzero(profile.opened(closing))
+        if not (np.all(across[used] > 0.0) and profile.length[used].any()):
+            return 0.0
+        return math.sqrt(force * self.modulus / (math.pi * float(np.sum(profile.length[used] / across[used]))))
 
 
-def _first_rotation(gear: GearPair, places: tuple[_Place, ...], load: Load) -> float:
-    """About how far the loaded member turns, rad: under the whole torque on the pair that touches first."""
-    first = min(places, key=lambda place: place.apart)
-    return _TEETH_SOFTER * hertz_of(gear, first.contact, load.torque / first.arm).approach / first.arm
+@dataclass(frozen=True, eq=False)
+class _Solution:
+    """Pressures (N,) of the cells of each of the pairs at ``places`` that the load may bring together, and rotation."""
+
+    places: tuple[_Place, ...]
+    windows: tuple[Window, ...]
+    grids: tuple[ContactGrid, ...]
+    pressures: tuple[Floats, ...]
+    rotation: float
+    unresolved: str = ""
+
+    @property
+    def forces(self) -> Floats:
+        """Normal force in N of each."""
+        return np.array([grid.area @ p for grid, p in zip(self.grids, self.pressures, strict=True)])
+
+    def idle(self, place: _Place) -> bool:
+        """Whether a pair has no pressure."""
+        return place not in self.places or not self.pressures[self.places.index(place)].any()
+
+    def closing(self, place: _Place) -> float:
+        """What the load closes at most of the gap of a pair, mm."""
+        return abs(self.rotation) * place.arm
+
+    @property
+    def leaking(self) -> tuple[Bools, ...]:
+        """Whether (2,) pressure reaches a free border of the cells of each pair, along and across.
+
+        Nothing touches along a strip where the gap is larger than what the load closes.
+        """
+        return tuple(
+            np.any(grid.free & (p > 0.0), axis=1) & [window.closing < self.closing(place), True]
+            for place, window, grid, p in zip(self.places, self.windows, self.grids, self.pressures, strict=True)
+        )
+
+    def windows_after(self) -> dict[int, Window]:
+        """By pair what to divide next: where there was pressure, more where it reached a free border."""
+        return {
+            place.contact.pairs_later: _next_window(self.closing(place), window, grid, p, leaking)
+            for place, window, grid, p, leaking in zip(
+                self.places, self.windows, self.grids, self.pressures, self.leaking, strict=True
+            )
+        }
+
+    def settled(self, before: _Solution) -> bool:
+        """Whether nothing is left that finer cells than ``before`` change by much.
+
+        Where pressure peaks at an edge of a flank it does so the more the finer the cells; forces hold.
+        """
+        if any(before.idle(place) != self.idle(place) for place in {*before.places, *self.places}):
+            return False
+        if before.places != self.places or abs(self.rotation - before.rotation) > _SETTLED * abs(self.rotation):
+            return False
+        least = _LEAST_SHARE * self.forces.sum()
+        if np.any(np.abs(self.forces - before.forces) > _SETTLED * np.maximum(self.forces, least)):
+            return False
+        (old, old_edges), (new, new_edges) = before.peaks, self.peaks
+        return bool(np.all((np.abs(new - old) < _SETTLED * new.max()) | (old_edges & new_edges)))
+
+    @property
+    def peaks(self) -> tuple[Floats, Bools]:
+        """The largest pressure in MPa of each pair, and whether it is at an edge of a flank."""
+        at = [int(np.argmax(p)) for p in self.pressures]
+        peaks = np.array([p[k] for p, k in zip(self.pressures, at, strict=True)])
+        return peaks, np.array([grid.at_edges[k] for grid, k in zip(self.grids, at, strict=True)])
+
+    def impossible(self, member: Member, load: Load) -> str:
+        """What no load on these flanks could give, empty where there is nothing of the kind."""
+        moment = sum(
+            float((grid.area * p) @ _arms(member, grid)) for grid, p in zip(self.grids, self.pressures, strict=True)
+        )
+        if not abs(moment / load.torque - 1.0) < _EQUILIBRIUM:
+            return f"pressures have a moment of {moment / 1000.0:.5g} N m, not {load.torque / 1000.0:.5g} N m"
+        for place, window, p, force in zip(self.places, self.windows, self.pressures, self.forces, strict=True):
+            least = place.least_peak(force, self.closing(place), window.width) if force > 0.0 else 0.0
+            if not p.max() >= _POSSIBLE * least:
+                return f"a peak of {p.max():.5g} MPa under a force that no line carries with less than {least:.5g} MPa"
+        return ""
 
 
-def _and_around(cells: Bools) -> Bools:
-    """The cells (N,) of a square grid and their neighbours."""
-    side = math.isqrt(len(cells))
-    return binary_dilation(cells.reshape(side, side), np.ones((3, 3))).ravel()
+def _next_window(closing: float, window: Window, grid: ContactGrid, pressures: Floats, leaking: Bools) -> Window:
+    """The part of a strip to divide next, of a pair of which the load closes ``closing`` mm at most."""
+    pressed = pressures > 0.0
+    if not pressed.any():
+        return window
+    rows = np.flatnonzero(pressed.reshape(grid.rows, grid.columns).any(axis=1))
+    about = grid.row_gap[max(rows[0] - 1, 0) : rows[-1] + 2]
+    low, high = grid.row_gap.min(), about.max()
+    reach = float(low + (1.0 + _ROOM) * (high - low))
+    whole = window.whole or bool(leaking[0])
+    least = float(low + (_ALL_CLOSED if whole else _LEAST_CLOSED) * max(closing - low, 0.0))
+    across = grid.half[pressed, 1]
+    touching, cell = float(np.max(np.abs(grid.offset[pressed]) + across)), 2.0 * float(across.max())
+    width = min(touching + max(_ROOM * touching, cell), window.width)
+    if leaking[1]:
+        width = _WIDER * window.width
+    return Window(max(reach, least), width, whole)
 
 
-def _grid(place: _Place, force: float, rotation: float, cells: int) -> ContactGrid | None:
-    """The cells of a pair; None of an edge that the load does not bring to the mate."""
-    if place.contact.touch.edge:
+def _resolved(
+    gear: GearPair, places: tuple[_Place, ...], load: Load, compliance: dict[str, ToothCompliance] | None
+) -> _Solution:
+    """The solution with cells so wide and fine that it is settled, or the last one with the reason why it is not."""
+    member, _ = loaded_side(gear, load)
+    windows = _first_windows(places, load)
+    cells, level, widened = _FIRST_CELLS, -1, 0
+    settled: _Solution | None = None
+    before: _Solution | None = None
+    while True:
+        found = _solved(gear, places, windows, load, compliance, cells, before)
+        if abs(found.rotation) > FAR_TOO_FAR * LARGEST_ROTATION:
+            return found
+        windows = windows | found.windows_after()
+        missed = _missed(places, found, windows)
+        before = found
+        if missed or any(of.any() for of in found.leaking):
+            widened += 1
+            if widened > _WIDENINGS:
+                return replace(found, unresolved="pressure is left at a free border of the cells")
+            continue
+        if level >= _ENOUGH and settled is not None and found.settled(settled):
+            return replace(found, unresolved=found.impossible(member, load))
+        level, settled = level + 1, found
+        if level == len(_CELLS):
+            return replace(found, unresolved="finer cells go on changing force, rotation or the peak of pressure")
+        cells = _CELLS[level]
+
+
+def _missed(places: tuple[_Place, ...], found: _Solution, windows: dict[int, Window]) -> bool:
+    """Whether the load may bring a pair together that has no cells; gives it a window."""
+    missed = False
+    for place in places:
+        closing = found.closing(place)
+        if place not in found.places and closing > place.apart:
+            windows[place.contact.pairs_later] = _window(place, closing)
+            missed = True
+    return missed
+
+
+def _first_windows(places: tuple[_Place, ...], load: Load) -> dict[int, Window]:
+    """By pair what to divide first: what springs under all strips close, twice that for teeth.
+
+    An edge that the load does not bring to its mate has none.
+    """
+
+    def missing(rotation: float) -> float:
+        return sum(p.arm * p.spring_force(rotation * p.arm) for p in places) - load.torque
+
+    rotation = _TEETH_SOFTER * _root(missing)
+    found: dict[int, Window] = {}
+    for place in places:
         closing = rotation * place.arm
-        return overlap_grid(place.plane, place.apart, closing, cells) if closing > place.apart else None
-    ellipse = hertz_of(place.gear, place.contact, force)
-    reach = _REACH * np.array([ellipse.semi_major, ellipse.semi_minor])
-    grid = contact_grid(place.plane, reach, cells)
-    if grid.inside.mean() > _LEAST_USED:
-        return grid
-    return fitted_grid(place.plane, reach, math.inf, cells) or grid
+        if not place.contact.touch.edge:
+            least = _LEAST_SHARE * load.torque / place.arm
+            closing = max(closing, _root(lambda depth, p=place, f=least: p.spring_force(depth) - f))
+        elif closing <= place.apart:
+            continue
+        found[place.contact.pairs_later] = _window(place, closing)
+    return found
 
 
-def _likely(place: _Place, grid: ContactGrid, before: tuple[ContactGrid, Floats] | None, rotation: float) -> Bools:
-    """The cells (N,) of a pair thought to touch, from those of other cells ``before`` and their pressures."""
-    if before is not None and not np.any(before[1] > 0.0):
-        return np.zeros(len(grid.gap), dtype=bool)
-    if not place.contact.touch.edge:
-        return _in_ellipse(grid)
-    if before is None:
-        return grid.gap < _TOUCHING * rotation * place.arm
-    old, pressures = before
-    side, half = math.isqrt(len(pressures)), np.array([old.half_major, old.half_minor])
-    cell = np.floor((grid.centres - old.centres[0] + half) / (2.0 * half)).astype(int)
-    held = np.all((cell >= 0) & (cell < side), axis=1)
-    return held & (pressures[side * np.clip(cell[:, 0], 0, side - 1) + np.clip(cell[:, 1], 0, side - 1)] > 0.0)
+def _window(place: _Place, closing: float) -> Window:
+    return Window(closing, _REACH * place.strip.half_width(closing))
 
 
-def _in_ellipse(grid: ContactGrid) -> Bools:
-    """Cells inside the Hertz ellipse that the grid was made for."""
-    extent = np.abs(grid.centres).max(axis=0) + np.array([grid.half_major, grid.half_minor])
-    return np.hypot(*(_REACH * grid.centres / extent).T) < 1.0
+def _root(rising) -> float:
+    """Where a function of a positive number that rises from below zero vanishes."""
+    high = 1e-12
+    while rising(high) < 0.0:
+        if high > 1e12:
+            raise ArithmeticError("no part of the flanks comes into contact: choose a larger torque")
+        high *= 4.0
+    return float(brentq(rising, 0.0, high, rtol=1e-3))
 
 
-def _equilibrium(
-    gear: GearPair,
-    places: tuple[_Place, ...],
-    grids: list[ContactGrid],
-    load: Load,
-    compliance: dict[str, ToothCompliance] | None,
-    start: list[Bools],
-) -> tuple[list[Floats], float]:
-    """Pressures (N,) of the cells of each pair and the rotation; ``start`` (N,): the cells of each thought to touch."""
-    if not grids:
+def _likely(place: _Place, window: Window, grid: ContactGrid, before: _Solution | None) -> Bools:
+    """The cells (N,) of a pair thought to touch, from other cells ``before`` and their pressures."""
+    if before is None or place not in before.places:
+        return grid.gap < _TOUCHING * window.closing
+    at = before.places.index(place)
+    _, nearest = KDTree(before.grids[at].points).query(grid.points)
+    return before.pressures[at][nearest] > 0.0
+
+
+def _arms(member: Member, grid: ContactGrid) -> Floats:
+    """Levers (N,) in mm of forces on cells about the axis of a member."""
+    origin, axis = member.axis
+    return np.abs(np.cross(grid.points - origin, grid.frame[:, 2]) @ axis)
+
+
+def _solved(
+    gear: GearPair, places: tuple[_Place, ...], windows: dict[int, Window], load: Load,
+    compliance: dict[str, ToothCompliance] | None, cells: tuple[int, int], before: _Solution | None,
+) -> _Solution:
+    """Pressures of so many rows and columns of cells over the windows of all pairs, and the rotation."""
+    laid = [
+        (place, window, place.strip.grid(window, *(_FIRST_CELLS if before and before.idle(place) else cells)))
+        for place in places
+        if (window := windows.get(place.contact.pairs_later)) is not None
+    ]
+    used = [(place, window, grid) for place, window, grid in laid if grid is not None]
+    if not used:
         raise ArithmeticError("no cell of the flanks comes into contact: choose a larger torque")
     member, _ = loaded_side(gear, load)
-    origin, axis = member.axis
-    contacts = tuple(place.contact for place in places)
-    areas = np.concatenate([np.full(len(g.gap), g.area) for g in grids])
-    cells = Cells.of(gear, contacts, grids, compliance or {})
-    arms = np.concatenate(
-        [np.abs(np.cross(g.points - origin, c.touch.normal) @ axis) for c, g in zip(contacts, grids, strict=True)]
-    )
-    gap = np.concatenate([g.gap for g in grids])
-    inside = np.concatenate([g.inside for g in grids])
-    pressure, rotation = active_set(cells, gap, arms, areas, inside, np.concatenate(start), load.torque)
-    return cells.of_pairs(pressure), rotation
+    grids = [grid for _, _, grid in used]
+    every = Cells.of(gear, tuple(place.contact for place, _, _ in used), grids, compliance or {})
+    areas, gap = (np.concatenate(of) for of in zip(*((g.area, g.gap) for g in grids), strict=True))
+    arms = np.concatenate([_arms(member, grid) for grid in grids])
+    start = np.concatenate([_likely(*of, before) for of in used])
+    pressure, rotation = active_set(every, gap, arms, areas, start, load.torque)
+    return _Solution(
+        tuple(place for place, _, _ in used), tuple(window for _, window, _ in used), tuple(grids),
+        tuple(every.of_pairs(pressure)), rotation,
+    )  # fmt: skip

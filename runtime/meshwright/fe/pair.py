@@ -49,8 +49,9 @@ class Touch:
     """The unloaded contact of one pair at a pinion angle: fixed frame, mm and rad.
 
     normal points out of the pinion; curvatures are those of the gap, 0 < curvature_min <= curvature_max.  edge: what
-    touches where it is no tangency, such as "edge of the wheel (face)"; the normal is then that of the flank it touches
-    and the curvatures are those of the tangency nearest to it.
+    touches where it is no tangency, such as "edge of the wheel (face)"; the normal is then that of the
+    flank that it touches, and curvatures and their direction are not numbers.  Of a line of contact curvature_min is 0,
+    curvature_max is not a number, point is in its middle and major_direction along it.
     """
 
     pinion_angle: float

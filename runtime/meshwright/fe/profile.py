@@ -20,9 +20,9 @@ class Smooth(Protocol):
 
     def __call__(self, profile: Floats, face: Floats) -> tuple[Floats, Floats]: ...
 
-    def pierced(self, feet: Floats, plane: Floats, start: tuple[float, float]) -> tuple[Floats, Floats, Floats]:
-        """Both parameters (N,) and points (N, 3) where the normals of a plane through feet (N, 3) meet it, from nearby
-        parameters; not a number where they do not. ``plane`` (2, 3): directions that span it.
+    def pierced(self, feet: Floats, plane: Floats, start: tuple[float, float]) -> tuple[Floats, ...]:
+        """Both parameters (N,), points and outward unit normals (N, 3) where the normals of a plane through feet (N, 3)
+        meet it, from nearby parameters; not a number where they do not. ``plane`` (2, 3): directions that span it.
         """
         ...
 

@@ -110,12 +110,13 @@ class _Curves:
         points, normals = ((a @ self.motion).reshape(*profile.shape, 3) for a in (found.points, found.normals))
         return points, normals
 
-    def pierced(self, feet: Floats, plane: Floats, start: tuple[float, float]) -> tuple[Floats, Floats, Floats]:
-        """Profile parameters, sections (N,) and points (N, 3) where normals of a plane meet the surface."""
+    def pierced(self, feet: Floats, plane: Floats, start: tuple[float, float]) -> tuple[Floats, ...]:
+        """Profile parameters, sections (N,), points and normals (N, 3) where normals of a plane meet the surface."""
         region, back = self.known.lines(self.region).region, self.motion.T
         near = self._near(*np.array(start)[:, None])[0]
         found = region.flank(pierced(region.flank, feet @ back, plane @ back, near))
-        return found.parameters[:, region.profile], lengthwise(region.flank, found), found.points @ self.motion
+        placed = found.points @ self.motion, found.normals @ self.motion
+        return found.parameters[:, region.profile], lengthwise(region.flank, found), *placed
 
     def _at(self, profile: Floats, section: Floats) -> FlankPoints:
         region = self.known.lines(self.region).region

@@ -2,13 +2,13 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from functools import cache, partial
 from typing import Literal
 
 import numpy as np
 
-from meshwright.base.errors import DesignError, UsageError
+from meshwright.base.errors import UsageError
+from meshwright.contact.contact_line import contact_line
 from meshwright.contact.flags import on_flanks
 from meshwright.contact.placement import about_z, placed
 from meshwright.contact.results import TCA
@@ -24,7 +24,7 @@ from meshwright.fe.pair import GearPair, Member, Touch
 from meshwright.fe.region_teeth import region_teeth
 from meshwright.fe.rim import RIM_MODULES, check_rim
 from meshwright.fe.sizes import solid_sizes
-from meshwright.fe.thread_flanks import place_in_contact, threads
+from meshwright.fe.thread_flanks import check_flanks, threads
 from meshwright.fe.tooth import Teeth
 
 #: Share of a pitch by which an angle half-way between two pairs may be off.
@@ -32,6 +32,8 @@ _HALF_WAY = 1e-9
 
 #: Share of a pitch in which a path of contact is followed at most.
 _STEP_PITCHES = 0.25
+# A line of contact with fewer points than this is too short to have a direction.
+_FEWEST_ON_LINE = 3
 
 MemberName = Literal["pinion", "wheel"]
 
@@ -40,7 +42,7 @@ def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
     """The loaded-contact view of a drive, materials from its design.
 
     rim_thickness: depth of the rims below the root in mm; None takes 4.5 modules, or twice the height of the teeth.
-    Raises UsageError for a drive that has no solid model, DesignError where the flanks touch along a line.
+    Raises UsageError for a drive that has no solid model.
     """
     if drive.design.mirrored:
         hand, described = drive.design.tables["design"]["hand"], drive.design.description["handed"]
@@ -57,14 +59,14 @@ def gear_pair(drive: Drive, rim_thickness: float | None = None) -> GearPair:
         rim_thickness = RIM_MODULES * sizes["pinion"]["module"]
     if rim_thickness is not None and not (np.isfinite(rim_thickness) and rim_thickness > 0.0):
         raise UsageError(f"--rim-mm {rim_thickness:g}: the depth of the rim must be above zero")
-    _check_point_contact(drive)
+    check_flanks(drive)
     materials = Materials.of_table(drive.design.tables["material"])
     pinion = _member(drive, "pinion", teeth_of(drive, "pinion", rim_thickness), materials.pinion)
     wheel = _member(drive, "wheel", teeth_of(drive, "wheel", rim_thickness), materials.wheel)
     touch = cache(lambda angle: _touch(drive, angle))
     mesh = Mesh.of(drive)
-    sense = int(mesh.sense) if np.isfinite(mesh.sense) else int(np.sign(drive.design.flank))
     window = mesh.window
+    sense = int(mesh.sense) if np.isfinite(mesh.sense) else int(np.sign(drive.design.flank))
     edge = cache(partial(_edge, drive, first_contact_of(mesh)))
     teeth = mesh.rigid
     leader = cache(lambda angle: None if teeth is None else teeth.leader(angle)[0])
@@ -94,7 +96,8 @@ def _middle_pair(window: Window, pitch: float) -> Callable[[float], int]:
     """The pair in the middle at each pinion angle: the reference pair up to half a pitch about 0, where it touches, or
     else about the middle of its contact.
     """
-    ends = [end.angle for end in (window.begin, window.end) if end is not None and end.angle is not None]
+    angles = [end.angle for end in (window.begin, window.end) if end is not None and end.angle is not None]
+    ends = [angle for angle in angles if math.isfinite(angle)]
     middle = 0.0 if len(ends) < 2 or min(ends) <= 0.0 <= max(ends) else 0.5 * sum(ends)
 
     def pair(angle: float) -> int:
@@ -104,13 +107,6 @@ def _middle_pair(window: Window, pitch: float) -> Callable[[float], int]:
     return pair
 
 
-def _check_point_contact(drive: Drive) -> None:
-    if drive.tca([0.0]).status[0] == "line_contact":
-        raise DesignError(
-            "flank", drive.design.tables["flank"], "the flanks touch along a line", "misalign or crown a flank"
-        )
-
-
 def _path_to(drive: Drive, angle: float) -> TCA:
     """The contact followed from angle 0: equations of a thread have the contact of a turn earlier as a solution too."""
     steps = max(1, int(np.ceil(abs(angle) / (_STEP_PITCHES * drive.pitch()))))
@@ -118,9 +114,26 @@ def _path_to(drive: Drive, angle: float) -> TCA:
 
 
 def _touch(drive: Drive, angle: float) -> Touch | None:
-    """The tangency of the reference pair at an angle, None off its flanks."""
+    """The tangency or the line of contact of the reference pair at an angle, None off its flanks."""
     path = _path_to(drive, angle)
+    if path.status[-1] == "line_contact":
+        return _line(drive, angle, path)
     return _tangency(path, -1) if on_flanks(path.flags[-1]) else None
+
+
+def _line(drive: Drive, angle: float, path: TCA) -> Touch | None:
+    """Contact in the middle of the line along which both flanks touch at the last angle of a path, None off them."""
+    line = contact_line(drive, angle, path.solutions[-1])
+    if len(line.points) < _FEWEST_ON_LINE:
+        return None
+    way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line.points, axis=0), axis=1))])
+    middle = int(np.argmin(np.abs(way - 0.5 * way[-1])))
+    beside = line.points[[max(middle - 1, 0), min(middle + 1, len(way) - 1)]]
+    flank = drive.flank("pinion")(line.parameters["pinion"][middle : middle + 1])
+    turn = placed(drive, [angle], [float(path.wheel_angles[-1])]).matrices["pinion"][0][:3, :3]
+    normal = turn @ flank.normals[0]
+    along = _across(beside[1] - beside[0], normal)
+    return Touch(angle, float(path.wheel_angles[-1]), line.points[middle], normal, 0.0, math.nan, along)
 
 
 def _tangency(path: TCA, k: int) -> Touch | None:
@@ -143,26 +156,16 @@ def _tangency(path: TCA, k: int) -> Touch | None:
 
 
 def _edge(drive: Drive, first: Callable[[Floats], FirstContacts] | None, angle: float) -> Touch | None:
-    """First contact at an angle if it is an edge or a corner, with the curvatures of the tangency nearest in angle."""
+    """First contact at an angle if it is an edge or a corner."""
     if first is None:
         return None
     found = first(np.array([angle]))
-    if found.kinds[0] in (None, "tangency"):
-        return None
-    path = _path_to(drive, angle)
-    near = next((t for t in (_tangency(path, k) for k in reversed(range(len(path.angles)))) if t is not None), None)
-    if near is None:
+    if found.kinds[0] in (None, "tangency", "line"):
         return None
     normal = found.normals[0] / np.linalg.norm(found.normals[0])
-    return replace(
-        near,
-        pinion_angle=angle,
-        wheel_angle=drive.ratio * angle + float(found.errors[0]),
-        point=found.points[0],
-        normal=normal,
-        major_direction=_across(near.major_direction, normal),
-        edge=found.words(0),
-    )
+    wheel_angle = drive.ratio * angle + float(found.errors[0])
+    unknown = math.nan, math.nan, np.full(3, math.nan)
+    return Touch(angle, wheel_angle, found.points[0], normal, *unknown, edge=found.words(0))
 
 
 def _across(direction: Floats, normal: Floats) -> Floats:
@@ -173,7 +176,6 @@ def _across(direction: Floats, normal: Floats) -> Floats:
 
 def _member(drive: Drive, name: MemberName, teeth: Teeth, material: Material) -> Member:
     """The member in its placement, turning about its own z axis."""
-    place_in_contact(drive, name)
     stand = placed(drive, [0.0], [0.0])
     zero, direction = stand.matrices[name][0], stand.axes[name][0][0]
     turning = 1 if direction @ zero[:3, 2] > 0.0 else -1

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from meshwright.base.errors import DesignError
+from meshwright.contact.contact_line import contact_line
 from meshwright.contact.functions import has
 from meshwright.design.description import table_and_key
 from meshwright.drive import Drive
@@ -119,22 +120,31 @@ def contact(drive: Drive, member: str) -> tuple[Floats, Floats]:
 
 
 def place_in_contact(drive: Drive, member: str) -> Floats:
-    """Parameters (k,) of a member's flank in contact at pinion angle 0.
+    """Parameters (k,) of a member's flank in contact at pinion angle 0, of a line in its middle.
 
     Raises DesignError where nothing touches, naming the flank that the blank leaves empty if that is why.
     """
     found = drive.tca([0.0])
     if found.solved[0]:
         return np.array([found.unknowns[name][0] for name in drive.flank(member).parameters])
+    check_flanks(drive)
+    if found.status[0] == "line_contact":
+        on_line = contact_line(drive, 0.0, found.solutions[0]).parameters[member]
+        if len(on_line):
+            return on_line[len(on_line) // 2]
+    name = drive.design.tables.get("name")
+    reason = f"no contact at a pinion angle of 0 ({found.status[0]})"
+    raise DesignError("design", name, reason, "change the blank or the design until `meshwright tca` finds one there")
+
+
+def check_flanks(drive: Drive) -> None:
+    """Raise DesignError where the blank leaves a flank empty."""
     for of in ("pinion", "wheel"):
         flank = drive.region(of)
         if flank.empty:
             tip = drive.design.description["loading"]["keys"].get(f"{of}_tip") if "tip" in flank.conflict else None
             value = drive.design.value(*reversed(table_and_key(tip))) if tip else None
             raise DesignError(tip or "blank", value, flank.why_empty, f"change {tip}" if tip else "change the blank")
-    name = drive.design.tables.get("name")
-    reason = f"no contact at a pinion angle of 0 ({found.status[0]})"
-    raise DesignError("design", name, reason, "change the blank or the design until `meshwright tca` finds one there")
 
 
 def span(drive: Drive, member: str) -> Span:
@@ -291,9 +301,10 @@ class _Enveloped:
         found = self._at(profile.ravel(), face.ravel())
         return found.points.reshape(*profile.shape, 3), found.normals.reshape(*profile.shape, 3)
 
-    def pierced(self, feet: Floats, plane: Floats, start: tuple[float, float]) -> tuple[Floats, Floats, Floats]:
+    def pierced(self, feet: Floats, plane: Floats, start: tuple[float, float]) -> tuple[Floats, ...]:
         q = pierced(self.generated, feet, plane, self._places(*np.array(start)[:, None])[0])
-        return q[:, 0], q[:, 2], self.generated(q).points
+        found = self.generated(q)
+        return q[:, 0], q[:, 2], found.points, found.normals
 
     def on_sections(self, profile: Floats, factors: Floats, values: Floats, start: Floats) -> tuple[Floats, ...]:
         near = np.stack([profile, np.zeros_like(profile), start], axis=1)

@@ -74,18 +74,13 @@ class _Touching:
 
 
 def active_set(
-    cells: Cells, gap: Floats, arms: Floats, areas: Floats, inside: Bools, start: Bools, torque: float
+    cells: Cells, gap: Floats, arms: Floats, areas: Floats, start: Bools, torque: float
 ) -> tuple[Floats, float]:
     """Pressures (N,) >= 0 and rotation with gap + displacement - rotation arms >= 0, zero where p > 0, moment = torque.
 
-    start (N,): cells thought to touch.  Raises ArithmeticError if no cell is on both flanks, or the set of touching
-    cells does not settle.
+    start (N,): cells thought to touch.  Raises ArithmeticError if the set of touching cells does not settle.
     """
-    if not inside.any():
-        raise ArithmeticError("no cell of the contact grid lies on both flanks: the load is too large for these teeth")
-    active = inside & start
-    if not active.any():
-        active = inside & (gap <= gap[inside].min())
+    active = start.copy() if start.any() else gap <= gap.min()
     scale = cells.largest
     touching: _Touching | None = None
     for _ in range(_ACTIVE_SET_STEPS):
@@ -97,7 +92,7 @@ def active_set(
             touching = touching.without(pulled) if touching.most(active) else None
             continue
         opening = gap + cells.under(pressure) - rotation * arms
-        overlapping = inside & ~active & (opening < -1e-9 * scale * max(1.0, float(pressure.max())))
+        overlapping = ~active & (opening < -1e-9 * scale * max(1.0, float(pressure.max())))
         if not overlapping.any():
             return pressure, float(rotation)
         active |= overlapping

@@ -1,0 +1,383 @@
+"""The strip of the contact plane that pressure cells divide: along the curve of smallest gap, as far as flanks go.
+
+In each place along the strip the gap has its least across it: there touch the flanks of a line contact, and about there
+those of any other contact whose ellipse is slender. Rows of cells lie straight across that curve, each between the
+edges of the flanks or half a width away from its own least gap, and the strip ends where an edge cuts it off, or where
+the gap is larger than what the load closes. There is one strip for tangencies, lines, edges and corners.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from meshwright.fe.gap import Bools, ContactGrid, ContactPlane
+from meshwright.fe.hexahedra import Floats
+
+# Stations along the strip at which its curve is sought.
+_STATIONS = 41
+# Places across the flanks among which the start of that search is chosen.
+_STARTS = 17
+# Newton steps of that search.
+_STEPS = 8
+# Stations of a profile come as close to the contact as so many halvings of the strip.
+_HALVINGS = 24.0
+# Differences across the strip are taken over this part of the extent of the flanks across.
+_DIFFERENCE = 0.01
+# A border is looked for across the strip at distances that double so often.
+_DOUBLINGS = 10
+# Evaluations with which a border across the strip is closed in on.
+_CLOSING_IN = 40
+# A border across the strip is known to this part of the distance in which it is sought.
+_KNOWN = 1e-10
+# Stations and rounds with which the ends of a strip are closed in on.
+_END_STATIONS, _END_ROUNDS = 16, 5
+# What bounds a cell is told so far beyond its border, in parts of the width of the strip.
+_BEYOND = 1e-4
+# Cells across a curve that bends sharply are at least so long on its inside, in parts of their row.
+_LEAST_LENGTH = 0.1
+# Rows at an end are so much shorter than those in the middle.
+_SHORTER = 0.6
+
+
+@dataclass(frozen=True)
+class Window:
+    """The part of a strip that is divided: where the gap is less than ``closing``, and not further than ``width`` from
+    the place of the least gap across, both in mm; ``whole``: pressure has reached its end, it stays as long as that.
+    """
+
+    closing: float
+    width: float
+    whole: bool = False
+
+
+@dataclass(frozen=True)
+class Profile:
+    """Stations ``along`` (K,) a strip: ``offset`` in mm to the left of its curve of the least ``gap`` in mm on both
+    flanks, not a number where these are not; ``curvature`` of the gap across, 1/mm; ``length`` of each in mm.
+    """
+
+    along: Floats
+    offset: Floats
+    gap: Floats
+    curvature: Floats
+    length: Floats
+
+    def opened(self, closing: float) -> Floats:
+        """Closing (K,) in mm that is left for the flanks at each station where the load closes so much."""
+        return np.nan_to_num(np.maximum(closing - self.gap, 0.0))
+
+
+@dataclass(frozen=True)
+class Strip:
+    """A curve in the contact plane, given across its first axis.
+
+    ends: where both flanks may lie along that axis, mm; reach: extent across, mm.  along: stations (K,) of the first
+    axis; curve: coordinate along the second one at the first.
+    """
+
+    plane: ContactPlane
+    ends: tuple[float, float]
+    reach: float
+    along: Floats
+    curve: Callable[..., Floats]
+
+    @classmethod
+    def of(cls, plane: ContactPlane) -> Strip:
+        (first, low), (last, high) = plane.extents()
+        along = np.linspace(first, last, _STATIONS)
+        across = _least_gap(plane, along, low, high)
+        return cls(plane, (float(first), float(last)), float(high - low), along, PchipInterpolator(along, across))
+
+    def at(self, along: Floats, offset: Floats) -> Floats:
+        """Coordinates (..., 2) in the contact plane at stations and mm to the left of the curve there, of one shape."""
+        way = self.directions(along)
+        return np.stack([along, self.curve(along)], axis=-1) + offset[..., None] * way[..., 1, :]
+
+    def directions(self, along: Floats) -> Floats:
+        """Unit directions (..., 2, 2) along the curve and to its left, in the contact plane."""
+        slope = self.curve(along, 1)
+        way = np.stack([np.ones_like(slope), slope], axis=-1) / np.hypot(1.0, slope)[..., None]
+        return np.stack([way, np.stack([-way[..., 1], way[..., 0]], axis=-1)], axis=-2)
+
+    def margin(self, along: Floats, offset: Floats) -> Floats:
+        """How far (...,) places of the strip are within both flanks, in parts of the flanks."""
+        of = self.plane.footprints(self.plane.feet(self.at(along, offset).reshape(-1, 2)))
+        return np.minimum(*(one.margin for one in of.values())).reshape(along.shape)
+
+    def gap(self, along: Floats, offset: Floats) -> Floats:
+        """Gap (...,) of the flanks, as far as their surfaces go, along the normal of the pinion's, mm."""
+        of = self.plane.footprints(self.plane.feet(self.at(along, offset).reshape(-1, 2)))
+        gap, _ = self.plane.gap(of)
+        return (gap * (of["pinion"].normals @ self.plane.axes[2])).reshape(along.shape)
+
+    def nearest(self, along: Floats) -> Floats:
+        """Where (R,), in mm to the left, both flanks come nearest to the curve; not a number where they do not."""
+        found = np.where(self.margin(along, np.zeros_like(along)) >= 0.0, 0.0, np.nan)
+        (away,) = np.nonzero(np.isnan(found))
+        if not len(away):
+            return found
+        distance = self.reach * 0.5 ** np.arange(_DOUBLINGS)[::-1]
+        offsets = np.stack([distance, -distance], axis=1).ravel()
+        inside = self.margin(*np.broadcast_arrays(along[away, None], offsets)) >= 0.0
+        met = inside.any(axis=1)
+        away, first = away[met], inside[met].argmax(axis=1)
+        if len(away):
+            nearer = np.where(first > 1, offsets[first - 2], 0.0)
+            found[away] = self._border(along[away], offsets[first], nearer)
+        return found
+
+    def _border(self, along: Floats, inside: Floats, outside: Floats) -> Floats:
+        """Offsets (R,) of the edges of the flanks between places on them and beyond them: the last on them.
+
+        By false position that halves what stays (the Illinois method), since margins are smooth up to a corner.
+        """
+        inside, outside = inside.copy(), outside.copy()
+        ends = [self.margin(along, inside), np.maximum(self.margin(along, outside), -1.0)]
+        for _ in range(_CLOSING_IN):
+            middle = inside + (outside - inside) * np.clip(ends[0] / (ends[0] - ends[1]), 0.01, 0.99)
+            value = np.maximum(self.margin(along, middle), -1.0)
+            on = value >= 0.0
+            ends = [np.where(on, value, 0.5 * ends[0]), np.where(on, 0.5 * ends[1], value)]
+            inside, outside = np.where(on, middle, inside), np.where(on, outside, middle)
+            if np.abs(outside - inside).max() < _KNOWN * self.reach:
+                break
+        return inside
+
+    @cached_property
+    def profile(self) -> Profile:
+        """Stations from end to end, closer and closer to the contact."""
+        near = (self.ends[1] - self.ends[0]) * 0.5 ** np.arange(2.0, _HALVINGS)
+        near = np.concatenate([-near, [0.0], near])
+        along = np.union1d(self.along, near[(near > self.ends[0]) & (near < self.ends[1])])
+        on_flanks = self._on_flanks(along)
+        (last,) = np.nonzero(on_flanks[1:] != on_flanks[:-1])
+        inner, outer = (np.where(on_flanks[last] == side, along[last], along[last + 1]) for side in (True, False))
+        along = np.union1d(along, _last(self._on_flanks, inner, outer))
+        offset = self.nearest(along)
+        gap = self.least(along, offset)
+        steps = np.diff(along) * np.isfinite(gap[1:] + gap[:-1])
+        lengths = 0.5 * (np.append(steps, 0.0) + np.insert(steps, 0, 0.0))
+        lengths[lengths > 0.0] *= np.nan_to_num(self.lengths(along[lengths > 0.0]), nan=1.0)
+        curvature = _between(along, self.curvature(along, _DIFFERENCE * self.reach))
+        return Profile(along, offset, gap, curvature, lengths)
+
+    def half_width(self, closing: float) -> float:
+        """How far flanks would lie in one another across, to one side, at most, mm, where the load closes so much."""
+        profile = self.profile
+        used = profile.opened(closing) > 0.0
+        along, middle, least = profile.along[used], profile.offset[used], profile.gap[used]
+        distance = np.concatenate([[0.0], self.reach * 0.5 ** np.arange(_DOUBLINGS)[::-1]])
+        widest = 0.0
+        for side in (-1.0, 1.0):
+            stations, offsets = np.broadcast_arrays(along[:, None], middle[:, None] + side * distance)
+            gaps = np.where(self.margin(stations, offsets) >= 0.0, self.gap(stations, offsets), np.inf)
+            gaps[:, 0] = least
+            last = np.argmax(np.column_stack([gaps[:, 1:] >= closing, np.ones(len(along), dtype=bool)]), axis=1)
+            rows, after = np.arange(len(along)), np.minimum(last + 1, len(distance) - 1)
+            rise = gaps[rows, after] - gaps[rows, last]
+            share = np.divide(closing - gaps[rows, last], rise, out=np.zeros_like(rise), where=rise > 0.0)
+            between = distance[last] ** 2 + np.clip(share, 0.0, 1.0) * (distance[after] ** 2 - distance[last] ** 2)
+            widest = max(widest, math.sqrt(np.max(between, initial=0.0)))
+        return widest
+
+    def _on_flanks(self, along: Floats) -> Bools:
+        """Whether the curve is on both flanks at stations (...,)."""
+        return self.margin(along, np.zeros_like(along)) >= 0.0
+
+    def least(self, along: Floats, offset: Floats) -> Floats:
+        """The gaps (R,) at offsets, not a number where these are not."""
+        return np.where(np.isfinite(offset), self.gap(along, np.nan_to_num(offset)), np.nan)
+
+    def curvature(self, along: Floats, step: float) -> Floats:
+        """Curvature (R,) of the gap across the curve, 1/mm, over a step in mm to either side."""
+        stations, offsets = np.broadcast_arrays(along[:, None], step * np.array([-1.0, 0.0, 1.0]))
+        bend = self.gap(stations, offsets) @ np.array([1.0, -2.0, 1.0]) / step**2
+        return bend / self._on_flank(along, self._normals(along))[1][:, 1] ** 2
+
+    def lengths(self, along: Floats) -> Floats:
+        """Length (R,) of the curve on the flank per mm of the first axis."""
+        return np.hypot(1.0, self.curve(along, 1)) * self._on_flank(along, self._normals(along))[1][:, 0]
+
+    def _normals(self, along: Floats) -> Floats:
+        """Normals (R, 3) of the pinion's flank on the curve."""
+        feet = self.plane.feet(self.at(along, np.zeros_like(along)))
+        return self.plane.footprints(feet)["pinion"].normals
+
+    def _on_flank(self, along: Floats, normals: Floats) -> tuple[Floats, Floats]:
+        """Of flanks with normals (R, 3) at stations: unit directions (R, 3, 3) along, across and normal, and how far
+        (R, 2) along, and straight across that, a mm along and one across in the contact plane below leads there.
+        """
+        ways = self.directions(along) @ self.plane.axes[:2]
+        steep = np.einsum("kij,kj->ki", ways, normals) / (normals @ self.plane.axes[2])[:, None]
+        above = ways - steep[..., None] * self.plane.axes[2]
+        length = np.linalg.norm(above[:, 0], axis=1)
+        first = above[:, 0] / length[:, None]
+        second = np.cross(normals, first)
+        across = np.einsum("ki,ki->k", above[:, 1], second)
+        return np.stack([first, second, normals], axis=1), np.stack([length, across], axis=1)
+
+    def grid(self, window: Window, rows: int, columns: int) -> ContactGrid | None:
+        """The cells of a part of the strip; None where no gap is so small."""
+        ends = self._closed(window.closing)
+        if ends is None:
+            return None
+        first, last = ends
+        share = np.linspace(0.0, 1.0, rows + 1)
+        beyond = np.array([first - _BEYOND * self.reach, last + _BEYOND * self.reach])
+        if np.any(self.margin(beyond, np.zeros(2)) < 0.0):
+            share = share - _SHORTER * np.sin(2.0 * np.pi * share) / (2.0 * np.pi)
+        bounds = first + (last - first) * share
+        along = 0.5 * (bounds[1:] + bounds[:-1])
+        middle = self.nearest(along)
+        known = np.isfinite(middle)
+        along, middle, steps = along[known], middle[known], np.diff(bounds)[known]
+        sides, cut = zip(*(self._side(along, middle, sign * window.width) for sign in (-1.0, 1.0)), strict=True)
+        return self._cells(along, steps, middle, np.stack(sides), np.stack(cut), columns)
+
+    def _closed(self, closing: float) -> Floats | None:
+        """The first and the last station (2,) at which the gap is less than ``closing``; None where it is nowhere."""
+        along, gaps = self.profile.along, self.profile.gap
+        for _ in range(_END_ROUNDS):
+            (used,) = np.nonzero(gaps < closing)
+            if len(used):
+                break
+            if not np.isfinite(gaps).any():
+                return None
+            at = int(np.nanargmin(gaps))
+            along = np.linspace(along[max(at - 1, 0)], along[min(at + 1, len(along) - 1)], _END_STATIONS)
+            gaps = self.least(along, self.nearest(along))
+        else:
+            return None
+        inner = np.array([along[used[0]], along[used[-1]]])
+        outer = np.array([along[max(used[0] - 1, 0)], along[min(used[-1] + 1, len(along) - 1)]])
+
+        def touching(stations: Floats) -> Bools:
+            flat = stations.ravel()
+            return (self.least(flat, self.nearest(flat)) < closing).reshape(stations.shape)
+
+        return _last(touching, inner, outer)
+
+    def _side(self, along: Floats, middle: Floats, width: float) -> tuple[Floats, Bools]:
+        """Offsets (R,) at which rows end to one side, and whether an edge of a flank ends them there."""
+        end = middle + width
+        cut = ~(self.margin(along, end) >= 0.0)
+        if cut.any():
+            end[cut] = self._border(along[cut], middle[cut], end[cut])
+        return end, cut
+
+    def _cells(
+        self, along: Floats, steps: Floats, middle: Floats, sides: Floats, cut: Bools, columns: int
+    ) -> ContactGrid:
+        rows = len(along)
+        size = (sides[1] - sides[0]) / columns
+        share = (np.arange(columns) + 0.5) / columns
+        offsets = sides[0][:, None] + (sides[1] - sides[0])[:, None] * share
+        stations = np.broadcast_to(along[:, None], offsets.shape)
+        centres = self.at(stations, offsets).reshape(-1, 2)
+        feet = self.plane.feet(centres)
+        of = self.plane.footprints(feet)
+        gap, _ = self.plane.gap(of)
+        # Straight above their feet, which are known better than where normals are met.
+        up, met = self.plane.axes[2], of["pinion"].points
+        points = feet + ((met - feet) @ up)[:, None] * up
+        normals, upright = of["pinion"].normals, of["pinion"].normals @ up
+        frame, longer = self._on_flank(np.repeat(along, columns), normals)
+        # Rows across a bent curve are longer on its outside, as their centres are further apart there.
+        begin, end = (np.arctan(self.curve(along + side * steps, 1)) for side in (-0.5, 0.5))
+        middle_length = (steps * np.hypot(1.0, self.curve(along, 1)))[:, None]
+        length = np.maximum(middle_length - offsets * (end - begin)[:, None], _LEAST_LENGTH * middle_length)
+        half = 0.5 * longer * np.stack([length.ravel(), np.repeat(size, columns)], axis=1)
+        free, beyond = self._bounds(along, steps, offsets, sides, cut)
+        middle_foot = feet.mean(axis=0)
+        place = {name: flank.place(of[name], middle_foot) for name, flank in self.plane.flanks.items()}
+        return ContactGrid(
+            rows, columns, centres, half, frame, points, gap * upright, self.least(along, middle),
+            (offsets - middle[:, None]).ravel(), free.reshape(2, -1), beyond, place,
+            {name: flank.free_edges for name, flank in self.plane.flanks.items()},
+        )  # fmt: skip
+
+    def _bounds(
+        self, along: Floats, steps: Floats, offsets: Floats, sides: Floats, cut: Bools
+    ) -> tuple[Bools, dict[str, Bools]]:
+        """The cells (2, R, C) at free borders of the grid along and across, and by the name of an edge those (R C,)
+        that it bounds.
+        """
+        rows, columns = offsets.shape
+        number = np.arange(rows * columns).reshape(rows, columns)
+        free = np.zeros((2, rows, columns), dtype=bool)
+        away = _BEYOND * self.reach
+        cells, stations, beyond = [], [], []
+        for side, column in ((0, 0), (1, -1)):
+            free[1, ~cut[side], column] = True
+            cells.append(number[cut[side], column])
+            stations.append(along[cut[side]])
+            beyond.append(sides[side][cut[side]] + (away if side else -away))
+        for end, row in ((-1.0, 0), (1.0, -1)):
+            cells.append(number[row])
+            stations.append(np.full(columns, along[row] + (0.5 * steps[row] + away) * end))
+            beyond.append(offsets[row])
+            free[0, row] = self.margin(stations[-1], offsets[row]) >= 0.0
+        names: dict[str, Bools] = {}
+        cell, place = np.concatenate(cells), self.at(np.concatenate(stations), np.concatenate(beyond))
+        for name, of in self.plane.footprints(self.plane.feet(place)).items():
+            for edge, margin in of.margins.items():
+                bounds = np.zeros(rows * columns, dtype=bool)
+                bounds[cell[of.pierced & (margin < 0.0)]] = True
+                if bounds.any():
+                    names[f"{edge} of the {name}"] = bounds
+        return free, names
+
+
+def _last(holds: Callable[[Floats], Bools], inner: Floats, outer: Floats) -> Floats:
+    """The last (R,) of the numbers from inner to outer ones at which something holds, as it does at the inner ones."""
+    share, rows = np.linspace(0.0, 1.0, _END_STATIONS + 1), np.arange(len(inner))
+    for _ in range(_END_ROUNDS if len(inner) else 0):
+        places = inner[:, None] + (outer - inner)[:, None] * share
+        held = holds(places)
+        held[:, 0] = True
+        last = np.where(held.all(axis=1), _END_STATIONS, np.argmin(held, axis=1) - 1)
+        inner, outer = places[rows, last], places[rows, np.minimum(last + 1, _END_STATIONS)]
+    return inner
+
+
+def _least_gap(plane: ContactPlane, along: Floats, low: float, high: float) -> Floats:
+    """Second coordinates (K,) at which the surfaces of both flanks, limits apart, come nearest to one another.
+
+    From the best of some places on both flanks on by Newton's method with central differences; beyond the flanks, where
+    surfaces may cut one another, from what is next to that.
+    """
+    step = _DIFFERENCE * (high - low)
+    lattice = np.linspace(low, high, _STARTS)
+    gaps = _gaps(plane, along, np.tile(lattice, (len(along), 1)), limits=True)
+    best = np.nan_to_num(gaps, nan=np.inf)
+    across = _between(along, np.where(np.isfinite(gaps).any(axis=1), lattice[np.argmin(best, axis=1)], np.nan))
+    for _ in range(_STEPS):
+        before, here, after = _gaps(plane, along, across[:, None] + step * np.array([-1.0, 0.0, 1.0])).T
+        bend = (after - 2.0 * here + before) / step**2
+        move = -0.5 * (after - before) / (step * np.where(bend > 0.0, bend, np.nan))
+        across = across + np.clip(move, -0.25 * (high - low), 0.25 * (high - low))
+    beyond = high - low
+    return _between(along, np.where((across > low - beyond) & (across < high + beyond), across, np.nan))
+
+
+def _between(along: Floats, values: Floats) -> Floats:
+    """Values (K,) at stations, where they are not numbers between those of the next ones that are; else 0."""
+    known = np.isfinite(values)
+    return np.interp(along, along[known], values[known]) if known.any() else np.zeros_like(along)
+
+
+def _gaps(plane: ContactPlane, along: Floats, across: Floats, limits: bool = False) -> Floats:
+    """Gaps (K, M) along the plane's normal at the first coordinates (K,) and the second ones (K, M), of the surfaces,
+    or of the flanks within their limits.
+    """
+    places = np.stack(np.broadcast_arrays(along[:, None], across), axis=-1).reshape(-1, 2)
+    of = plane.footprints(plane.feet(places))
+    gap, inside = plane.gap(of)
+    there = inside if limits else of["pinion"].pierced & of["wheel"].pierced
+    return np.where(there, gap, np.nan).reshape(across.shape)
