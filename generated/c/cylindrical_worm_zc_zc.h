@@ -10359,7 +10359,7 @@ static inline int cylindrical_worm_zc_zc_cycle(double *c, double phi, mw_cycle *
 }
 
 /* A design, an input angle, and its contact there to the last digit. */
-static const double cylindrical_worm_zc_zc_sample[] = { 1.0, 2.0, 2.002744691995842, 1.0, 277.0, 0.05235987755982989, 19.1073226092974, 0.17453292519943295, 1.5707963267948966, 4.0, 20.0, 1.0, 60.0, 40.0, 0.17453292519943295, 60.0, 40.0, 0.050020856805770016, 296.4874624507215, 297.3801398414241, 1.5731353475489565, 0.0, 0.0, 0.0, 0.0, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, 0.00632, 0.0 };
+static const double cylindrical_worm_zc_zc_sample[] = { 1.0, 2.0, 2.002744691995842, 1.0, 277.0, 0.05235987755982989, 19.1073226092974, 0.17453292519943295, 1.5707963267948966, 4.0, 0.0, 20.0, 1.0, 60.0, 40.0, 0.17453292519943295, 60.0, 40.0, 0.050020856805770016, 296.4874624507215, 297.3801398414241, 1.5731353475489565, 0.0, 0.0, 0.0, 0.0, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, 0.00632, 0.0 };
 static const double cylindrical_worm_zc_zc_sample_angle = 1.0;
 static const double cylindrical_worm_zc_zc_sample_contact[] = { 0.0006626503177805449, -0.999340295483675, 0.0006259587440865063, 0.00062305310440972, 1.075582318541936e-09 };
 

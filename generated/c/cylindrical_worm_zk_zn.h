@@ -7990,7 +7990,7 @@ static inline int cylindrical_worm_zk_zn_cycle(double *c, double phi, mw_cycle *
 }
 
 /* A design, an input angle, and its contact there to the last digit. */
-static const double cylindrical_worm_zk_zn_sample[] = { 1.0, 2.0, 2.002744691995842, 1.0, 277.0, 0.05235987755982989, 19.1073226092974, 0.17453292519943295, 1.5707963267948966, 4.0, 20.0, 1.0, 60.0, 0.17453292519943295, 0.050020856805770016, 296.4874624507215, 297.3801398414241, 1.5731353475489565, 0.0, 0.0, 0.0, 0.0, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, 0.00632, 0.0 };
+static const double cylindrical_worm_zk_zn_sample[] = { 1.0, 2.0, 2.002744691995842, 1.0, 277.0, 0.05235987755982989, 19.1073226092974, 0.17453292519943295, 1.5707963267948966, 4.0, 0.0, 20.0, 1.0, 60.0, 0.17453292519943295, 0.050020856805770016, 296.4874624507215, 297.3801398414241, 1.5731353475489565, 0.0, 0.0, 0.0, 0.0, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, 0.00632, 0.0 };
 static const double cylindrical_worm_zk_zn_sample_angle = 1.0;
 static const double cylindrical_worm_zk_zn_sample_contact[] = { 0.0006459500517412135, -0.999251442148346, 5.003274451213197, 0.0025340883004826157, 1.8075946862340162e-09 };
 
