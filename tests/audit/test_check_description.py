@@ -53,7 +53,7 @@ def test_a_drive_without_description_is_refused(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("function", "pattern", "other", "words"),
     [
-        ("derive", r"p\[11\] = p\[3\];", "p[11] = p[4];", "rule"),
+        ("derive", r"p\[12\] = p\[3\];", "p[12] = p[4];", "rule"),
         ("size", r"d\[0\] = (\w+);", r"d[0] = -\1;", "size"),
         ("start_solution", r"x\[1\] = (\w+);", r"x[1] = -\1;", "solution"),
         ("observe", r"o\[3\] = (\S+);", r"o[3] = -\1;", "normal_pinion_f"),
@@ -137,9 +137,9 @@ def drive_of(name, change=lambda text: text, changes=lambda text: text):
     [(" = dp[2] * 0.5;", " = dp[2] * 0.25;"), (" && known[2] == known[2]", "")],
 )
 def test_a_wrong_change_of_a_rule_is_refused(old, new):
-    only(drive_of(ZN), "changes by rule 9 ")
-    with pytest.raises(Rejected, match="rule 9"):
-        only(drive_of(ZN, changes=lambda text: text.replace(old, new, 1)), "changes by rule 9 ")
+    only(drive_of(ZN), "changes by rule 10 ")
+    with pytest.raises(Rejected, match="rule 10"):
+        only(drive_of(ZN, changes=lambda text: text.replace(old, new, 1)), "changes by rule 10 ")
 
 
 @pytest.mark.parametrize(

@@ -81,11 +81,11 @@ def run(options):
     words = _words(family, options.profile)
     own = dict(common.setting(text) for text in options.set)
     asked = {"m": options.m or math.nan, "z_1": options.z[0], "z_2": options.z[1], "a": options.a}
-    given, determined = _determined(family, asked, own)
+    given, determined, sizes = _determined(family, asked, own)
     if math.isfinite(options.a) and "a" not in family.outline["options"]:
         raise UsageError(f"--a {options.a:g}: the centre distance of this family follows from its teeth; leave it out")
     name = options.name or "-".join([family.name, *words.values(), f"{options.z[0]}-{options.z[1]}"]).lower()
-    follow = partial(_followed, family, own) if own else None
+    follow = partial(_followed, family, sizes, own) if own else None
     first = first_design(family, name, words, given, own, determined, follow)
     try:
         drive = _drive(first)
@@ -112,7 +112,9 @@ def run(options):
 
 
 def _determined(family, asked, own):
-    """The options as they are, and the keys that follow from them and from one's ``own`` sizes, by "table.key"."""
+    """The options as they are, the keys that follow from them and from one's ``own`` sizes, by "table.key", and the
+    sizes that the options are.
+    """
     drawing = family.drawing
     places = {s["values"][0]: s["place"] for s in family.outline["suggestions"]
               if len(s["values"]) == 1 and s["values"][0] in [*asked]}  # fmt: skip
@@ -132,13 +134,13 @@ def _determined(family, asked, own):
     options = {option: determined.get(places.get(option), number) for option, number in asked.items()}
     if math.isnan(options["m"]):
         raise UsageError("--m: no module; give it, or a size from which it follows, by --set")
-    return options, {place: number for place, number in determined.items() if place not in own}
+    return options, {place: number for place, number in determined.items() if place not in own}, sizes
 
 
-def _followed(family, own, chosen):
-    """The keys that relations derive from one's ``own`` sizes and those ``chosen`` beside them, by "table.key"."""
+def _followed(family, sizes, own, chosen):
+    """The keys that relations derive from one's ``own`` sizes with those of options and ``chosen``, by "table.key"."""
     drawing = family.drawing
-    tables = designs.changed({"drive": family.name}, chosen | own)
+    tables = designs.changed({"drive": family.name}, chosen | sizes | own)
     completion = Completion.of(drawing, schema.drawn(family.name, tables))
     theirs = {name for name, size in completion.given.items() if size["place"] in own}
     by_own = {place for place, p in drawing.places.items()
