@@ -1,5 +1,7 @@
 """Files of measured points: what is written is read back; what is wrong is named by line and column."""
 
+import random
+
 import numpy as np
 import pytest
 
@@ -68,3 +70,33 @@ def test_pitch_deviations_of_an_eccentric_gear():
     assert found.total == pytest.approx(2 * e, rel=1e-12)
     assert found.largest == pytest.approx(2 * e * np.sin(np.pi / teeth), rel=1e-2)
     assert found.single.sum() == pytest.approx(0.0, abs=1e-12)
+
+
+#: What a table may hold that it should not.
+PIECES = (
+    "", ",", ",,", "\n", "\r", '"', "#", "\x00", "-", "1e999", "nan", "9" * 40, "9" * 5000, "-1", "1000000", "999999",
+    "right", "\ufeff", "\n1,right,0,0,1,2,3,1,0,0,4", "\n1,right,999999,999999,1,2,3,1,0,0,4", "deviation_um",
+)  # fmt: skip
+
+
+def test_a_damaged_table_is_read_or_refused_in_words(tmp_path):
+    """Of a thousand, changed at one to four places; what is read are numbers of a grid that a machine can measure."""
+    rows = [f"{tooth},{flank},{i},{j},{i},{j},3,1,0,0,{i - j}"
+            for tooth in (1, 7) for flank in ("right", "left") for i in range(3) for j in range(2)]  # fmt: skip
+    text, chance, path = "\n".join(["# design = x", ",".join(COLUMNS), *rows]), random.Random(1), tmp_path / "m.csv"
+    refused = 0
+    for _ in range(1000):
+        changed = text
+        for _ in range(chance.randint(1, 4)):
+            at = chance.randrange(len(changed) + 1)
+            changed = changed[:at] + chance.choice(PIECES) + changed[at + chance.choice((0, 0, 1, 2, 8)) :]
+        path.write_text(changed, encoding="utf-8", newline="")
+        try:
+            points, _ = read_csv(path)
+        except UsageError as error:
+            refused += 1
+            assert str(path) in str(error) and ";" in str(error)
+        else:
+            assert points.i.dtype == points.j.dtype == points.tooth.dtype == int
+            assert points.i.min() >= 0 <= points.j.min() and (points.i.max() + 1) * (points.j.max() + 1) <= 4_000_000
+    assert 300 < refused < 1000

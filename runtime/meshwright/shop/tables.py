@@ -23,6 +23,11 @@ CENTRES = ("cx_mm", "cy_mm", "cz_mm")
 LARGEST_FILE = 2**28
 
 
+#: Largest number of a tooth or of a line of points, and most places of the grid that such numbers span.
+LARGEST_NUMBER = 999_999
+MOST_PLACES = 4_000_000
+
+
 @dataclass(frozen=True)
 class Points:
     """M points: ``tooth``, ``i`` (across), ``j`` (along) (M,) of int, ``flank`` (M,) of words, ``points`` and outward
@@ -85,6 +90,10 @@ def read_csv(path):
     if not rows:
         raise UsageError(f"{path}: holds no points; write one a line below the header")
     columns = dict(zip(COLUMNS, zip(*rows, strict=True), strict=True))
+    shape = max(columns["i"]) + 1, max(columns["j"]) + 1
+    if shape[0] * shape[1] > MOST_PLACES:
+        size = f"{shape[0]} x {shape[1]}"
+        raise UsageError(f"{path}: i and j span {size} places, more than a grid has; number them from 0")
     return _points(columns, remarks), remarks
 
 
@@ -116,6 +125,10 @@ def _cell(path, number, name, text):
         value = int(text) if whole else float(text)
     except ValueError:
         value = math.nan
+    if whole and not (name == "tooth") <= value <= LARGEST_NUMBER:
+        least = 1 if name == "tooth" else 0
+        reason = f"is not a whole number from {least} to {LARGEST_NUMBER}"
+        raise UsageError(f"{path}, line {number}: {name} = {text[:40]!r} {reason}; correct it")
     if not math.isfinite(value):
         kind = "a whole number" if whole else "a finite number"
         raise UsageError(f"{path}, line {number}: {name} = {text[:40]!r} is not {kind}; correct it")
