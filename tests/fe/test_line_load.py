@@ -183,7 +183,13 @@ def test_an_equal_hob_gives_three_curved_lines_that_share_the_torque():
     assert math.sqrt(300e3 * modulus / (math.pi * whole)) == pytest.approx(356.31, rel=1e-4)
 
 
-@pytest.mark.parametrize("tables", [FZG_C14_TABLES, EQUAL_HOB_TABLES], ids=["spur", "equal-hob"])
+@pytest.mark.parametrize(
+    "tables",
+    [
+        pytest.param(FZG_C14_TABLES, id="spur"),
+        pytest.param(EQUAL_HOB_TABLES, id="equal-hob", marks=pytest.mark.validate),
+    ],
+)
 def test_the_command_has_lines(tables, capsys, monkeypatch, tmp_path):
     monkeypatch.setattr(loading, "compliances", lambda *_: None)
     design = tmp_path / "design.toml"

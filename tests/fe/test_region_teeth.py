@@ -227,6 +227,7 @@ def test_a_hypoid_pair_under_load(capsys):
     assert all(less < more < 4.0 * less for less, more in zip(*lags, strict=True))
 
 
+@pytest.mark.validate
 def test_a_bevel_pair_carries_along_lines(capsys):
     """All pairs of a crown gear's mates touch along lines at once, and share the torque by them."""
     assert main(["loaded", "bevel-crown-pair", "--torque-nm", "20", "--phi-deg=0", "--json", "-"]) == 0

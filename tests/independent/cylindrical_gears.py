@@ -37,6 +37,14 @@ class Gear:
     exponent: int = 2
     dedendum: object = None
     rounding: object = None
+    allowance: object = 0
+
+    @property
+    def cut(self):
+        """Depth from the reference circle to which the rack's datum line is set: the allowance of the normal thickness
+        is taken off both flanks of a tooth by a deeper cut, and does not move its tip.
+        """
+        return self.x * self.m + self.allowance / (2 * tan(self.alpha))
 
     @property
     def r(self):
@@ -67,7 +75,7 @@ class Gear:
 
     def edge_at(self, radius):
         rolled = sqrt(radius**2 - self.r_b**2) - self.r * sin(self.alpha_t)
-        return (sin(self.alpha_t) * rolled - self.x * self.m) / cos(self.alpha)
+        return (sin(self.alpha_t) * rolled - self.cut) / cos(self.alpha)
 
     def depth(self, l, z):
         """E, E_l, E_Z."""
@@ -97,7 +105,7 @@ class Gear:
         feed = c["lead_slope"] * (2 * z / b) / (2 * cos(alpha) * cos(beta))
         d_plunge = 8 * c["lead_crowning"] * z / b**2 / sin(alpha)
         d_feed = c["lead_slope"] / (b * cos(alpha) * cos(beta))
-        x = l * cos(alpha) - e * sin(alpha) + self.x * self.m - plunge
+        x = l * cos(alpha) - e * sin(alpha) + self.cut - plunge
         y = s * ((pi * self.m / 4 - l * sin(alpha) - e * cos(alpha)) / cos(beta) - feed) + z * tan(beta)
         x_l, y_l = cos(alpha) - e_l * sin(alpha), -s * (sin(alpha) + e_l * cos(alpha)) / cos(beta)
         x_z = -e_z * sin(alpha) - d_plunge
@@ -213,7 +221,7 @@ class Pair:
         nu1, nu2 = atan2(n[1], n[0]), atan2(in_wheel[1], in_wheel[0])
         origin = self.distance + self.da + self.axial * k2[0], self.axial * k2[1], self.axial * k2[2]
         reach = sum(i * j for i, j in zip(n, origin, strict=True)) / (p.m * cos(p.alpha))
-        rest = reach - (p.x + w.x) * tan(p.alpha)
+        rest = reach - (p.cut + w.cut) / p.m * tan(p.alpha)
         rest -= mpf(p.z) / 2 * (-s * nu1 + pi / 2 + involute(p.alpha_t))
         return -s * (2 * rest / w.z - pi / 2 - involute(w.alpha_t)) - nu2
 
@@ -252,6 +260,7 @@ def pair_of(tables, parallel=None):
             keys.get("relief_exponent", 2),
             length("basic_rack_dedendum_mm"),
             length("basic_rack_rounding_mm"),
+            mpf(keys.get(f"{name}_thickness_allowance_um", 0)) / 1000,
         )
 
     sigma = mpf(keys["shaft_angle_deg"]) * degree

@@ -74,7 +74,7 @@ def _worm(drive, solution, wheel_angle):
     def seen(worm, unknowns, phi):
         t_w, psi_w, t_h, psi_h, phi_h, phi_2 = unknowns
         error = phi_2 - mpf(worm.threads) / worm.teeth * phi
-        return [t_w, psi_w, t_h, psi_h + phi_h, error, *rotate("z", phi, worm.worm.at(t_w, psi_w)[0])]
+        return [t_w, psi_w, t_h, psi_h + phi_h, error, *rotate("z", phi, worm.thread(t_w, psi_w)[0])]
 
     return Twin(
         of=lambda values: WormDrive.of(_tables(drive, values)),

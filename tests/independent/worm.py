@@ -129,6 +129,15 @@ class WormDrive:
     dh: object = mp.mpf(0)
     dv: object = mp.mpf(0)
     da: object = mp.mpf(0)
+    allowance: object = mp.mpf(0)
+
+    def thread(self, t, psi):
+        """Point and normal of the worm's flank, moved along the axis out of the thread by its allowance, measured
+        across the thread, half for each flank.
+        """
+        point, normal = self.worm.at(t, psi)
+        point[2] += mp.sign(normal[2]) * self.allowance / (2 * mp.cos(self.worm.lead))
+        return point, normal
 
     @classmethod
     def of(cls, tables):
@@ -159,6 +168,7 @@ class WormDrive:
             errors.get("horizontal_deg", mp.mpf(0)) * degree,
             errors.get("vertical_deg", mp.mpf(0)) * degree,
             errors.get("axial_mm", mp.mpf(0)),
+            mp.mpf(d.get("worm_thickness_allowance_um", 0)) / 1000,
         )  # fmt: skip
 
     def meshing(self, t, psi, phi):
@@ -180,7 +190,7 @@ class WormDrive:
     def residual(self, unknowns, phi_1):
         """Position (3), two components of the normals' cross product, meshing."""
         t_w, psi_w, t_h, psi_h, phi_h, phi_2 = unknowns
-        worm, n_worm = (rotate("z", phi_1, a) for a in self.worm.at(t_w, psi_w))
+        worm, n_worm = (rotate("z", phi_1, a) for a in self.thread(t_w, psi_w))
         wheel, n_wheel = (rotate("z", -phi_2, a) for a in self.wheel(t_h, psi_h, phi_h))
         wheel[2] += self.da
         wheel, n_wheel = (rotate("x", -(self.sigma + self.dh), rotate("y", self.dv, a)) for a in (wheel, n_wheel))

@@ -97,7 +97,7 @@ def off_crowned(member, named, point, normal):
     with mp.workdps(30):
         twin = own_worm()
         if member == "pinion":
-            own, across = twin.worm.at(mp.mpf(named["t_worm"]), mp.mpf(named["psi_worm"]))
+            own, across = twin.thread(mp.mpf(named["t_worm"]), mp.mpf(named["psi_worm"]))
             return _apart(own, across, point, normal)
         t, rack = mp.mpf(named["t_hob"]), mp.mpf(named["psi_fixed_hob"])
         turn = mp.findroot(lambda phi: twin.meshing(t, rack - phi, phi), (mp.mpf(0), mp.mpf("0.01")))
