@@ -86,7 +86,7 @@ int main(void)
         if (followed.status != by_library.status || memcmp(next, other, sizeof other) != 0) differ++;
         if (guard && followed.status != MW_BAD_INPUT) garbage++;
         if (X(follow)(s_next, phi, next, NULL) != followed.status || memcmp(next, other, sizeof other) != 0) differ++;
-        if (count % 8 == 0 && count < 128 && cycles_differ(p, phi)) differ++;  /* where nothing touches, it looks long */
+        if (count % 8 == 0 && count < 128 && cycles_differ(p, phi)) differ++; /* it may look long */
         if (status < 0) {
             for (int i = 0; i < X(NX); i++) numbers += x[i] == x[i];
             continue;
