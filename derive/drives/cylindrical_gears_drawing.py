@@ -71,9 +71,9 @@ class Member:
         r = self.size("reference_radius_mm", "r", "reference radius")
         self.r_b = r_b = self.size("base_radius_mm", "r_b", "base radius")
         self.beta_b = beta_b = self.size("base_helix_angle_deg", "beta_b", "base helix angle")
-        self.r_F = r_F = self.size("limit_radius_mm", "r_F", "start of the involute")  # noqa: N806
+        self.r_F = r_start = self.size("limit_radius_mm", "r_F", "start of the involute")
         z_lim = self.size("least_teeth_without_undercut", "z_lim", "least teeth without undercut")
-        self.x_E = x_E = self.size(  # noqa: N806
+        self.x_E = x_cut = self.size(
             "generating_profile_shift_coefficient", "x_E", "generating profile shift coefficient"
         )
         self.upper = upper = self.size("thickness_upper_allowance_um", "A_sne", "upper allowance of the thickness")
@@ -85,12 +85,12 @@ class Member:
         span_teeth = self.size("span_teeth", "k", "teeth spanned", domain=POSITIVE, integer=True)
         span = self.size("span_mm", "W_k", "span over these teeth", domain=POSITIVE)
         ball = self.size("ball_diameter_mm", "D_M", "diameter of the measuring balls", domain=POSITIVE)
-        alpha_K = self.size("ball_pressure_angle_deg", "alpha_K", "pressure angle of the ball's centre")  # noqa: N806
+        alpha_ball = self.size("ball_pressure_angle_deg", "alpha_K", "pressure angle of the ball's centre")
         over = self.size("over_balls_mm", "M_dK", "size over the balls", domain=POSITIVE)
         chord = self.size("chordal_thickness_mm", "s_c", "chordal thickness on the reference circle")
         height = self.size("chordal_height_mm", "h_c", "height above that chord")
         s_an = self.size("tip_thickness_mm", "s_an", "normal thickness at the tip")
-        thickness = sp.pi / 2 + 2 * x_E * sp.tan(alpha)
+        thickness = sp.pi / 2 + 2 * x_cut * sp.tan(alpha)
         z_v = z / sp.cos(beta) ** 3
         psi = thickness / z_v
         odd = sp.sin(sp.pi * z / 2) ** 2  # 1 for an odd number of teeth, 0 for an even one
@@ -99,20 +99,22 @@ class Member:
         alpha_a = sp.acos(r_b / r_a)
         at = Quantity("at", "rad", "pressure angle sought")
         self.relations = (
-            relation(allowance, 2 * m * sp.tan(alpha) * (x_E - x), x_E),
+            relation(allowance, 2 * m * sp.tan(alpha) * (x_cut - x), x_cut),
             relation(allowance, (upper + lower) / 2, upper, lower),
-            relation(s_n, m * thickness, x_E),
-            relation(d_f, 2 * (r + x_E * m - k.dedendum.symbol), k.dedendum.symbol),
+            relation(s_n, m * thickness, x_cut),
+            relation(d_f, 2 * (r + x_cut * m - k.dedendum.symbol), k.dedendum.symbol),
             relation(d_w, 2 * r_b / sp.cos(working_angle.symbol)),
-            relation(d_form, 2 * r_F),
+            relation(d_form, 2 * r_start),
             relation(
                 span, m * sp.cos(alpha) * (sp.pi * (span_teeth - sp.Rational(1, 2)) + z * inv(alpha_t)
-                                           + 2 * x_E * sp.tan(alpha)), x_E,
+                                           + 2 * x_cut * sp.tan(alpha)), x_cut,
             ),
-            relation(over, 2 * r_b * across / sp.cos(alpha_K) + ball,
-                     **{alpha_K.name: sp.acos(2 * r_b * across / (over - ball))}),
-            Relation(alpha_K, Root(at, inv(at) - ball_involute, sp.Integer(0), STEEPEST),
-                     {x_E: ((inv(alpha_K) - replaced(ball_involute, {x_E: sp.Integer(0)})) * z / (2 * sp.tan(alpha)))}),
+            relation(over, 2 * r_b * across / sp.cos(alpha_ball) + ball,
+                     **{alpha_ball.name: sp.acos(2 * r_b * across / (over - ball))}),
+            Relation(
+                alpha_ball, Root(at, inv(at) - ball_involute, sp.Integer(0), STEEPEST),
+                {x_cut: (inv(alpha_ball) - replaced(ball_involute, {x_cut: sp.Integer(0)})) * z / (2 * sp.tan(alpha))},
+            ),
             relation(chord, z_v * m * sp.sin(psi)),
             relation(height, z_v * m * (1 - sp.cos(psi)) / 2 + r_a - r),
             relation(
@@ -130,12 +132,12 @@ class Member:
             Assumed(span_teeth, spanned, "touches near the middle of the teeth", unless=(span,)),
             Assumed(ball, BALL * m, "1.7 modules: touches near the reference circle", unless=(over,)),
         )
-        at_ball = sp.sqrt(r_b**2 + (r_b * sp.tan(alpha_K) - ball * sp.cos(beta_b) / 2) ** 2)
+        at_ball = sp.sqrt(r_b**2 + (r_b * sp.tan(alpha_ball) - ball * sp.cos(beta_b) / 2) ** 2)
         at_span = sp.sqrt(r_b**2 + (span * sp.cos(beta_b) / 2) ** 2)
         self.checks = (
             Check(f"undercut_{self.name}", z - z_lim),
             *(
-                Check(f"{self.name}_{what}", sp.Min(radius - r_F, r_a - radius), occurs=False)
+                Check(f"{self.name}_{what}", sp.Min(radius - r_start, r_a - radius), occurs=False)
                 for what, radius in (("span", at_span), ("over_balls", at_ball))
             ),
         )

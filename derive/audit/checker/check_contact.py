@@ -21,6 +21,7 @@ import sys
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 from .command import ended
 from .intervals import (
@@ -76,23 +77,26 @@ class Values:
             return Enclosed.of(e)
         require(isinstance(e, list), f"{str(e)[:40]} has no meaning in a description")
         if id(e) not in self.made:
-            self.made[id(e)] = self.value(*e)  # type: ignore[misc]
+            self.made[id(e)] = self.value(e)
         return self.made[id(e)]
 
-    def value(self, operation: str, *operands: object) -> Enclosed:
-        match operation, *operands:
+    def value(self, e: Any) -> Enclosed:
+        match e:
             case "/", int(p), int(q):
                 return Enclosed.of(Fraction(p, q))
-            case "^", base, exponent:
-                return power(self(base), exponent)
-        require(operation in OPERATIONS, f"{operation[:40]} has no meaning in a description")
-        return OPERATIONS[operation](*map(self, operands))
+            case "^", base, int(n):
+                return power(self(base), Fraction(n))
+            case "^", base, ["/", int(p), int(q)]:
+                return power(self(base), Fraction(p, q))
+            case str(operation), *operands if operation in OPERATIONS:
+                return OPERATIONS[operation](*map(self, operands))
+        raise Rejected(f"{str(e)[:40]} has no meaning in a description")
 
 
 def text(entry: object, form: re.Pattern, what: str) -> str:
-    written = isinstance(entry, str) and form.fullmatch(entry)
-    require(written, f"{what}: {str(entry)[:40]!r} is not written as it must be")
-    return entry  # type: ignore[return-value]
+    if not (isinstance(entry, str) and form.fullmatch(entry)):
+        raise Rejected(f"{what}: {str(entry)[:40]!r} is not written as it must be")
+    return entry
 
 
 def double(entry: object, what: str) -> Fraction:
@@ -100,8 +104,9 @@ def double(entry: object, what: str) -> Fraction:
 
 
 def entries(listed: object, count: int, what: str) -> list:
-    require(isinstance(listed, list) and len(listed) == count, f"{what}: must have {count} entries")
-    return listed  # type: ignore[return-value]
+    if not (isinstance(listed, list) and len(listed) == count):
+        raise Rejected(f"{what}: must have {count} entries")
+    return listed
 
 
 def once(pairs: Sequence[tuple[str, object]]) -> dict:
@@ -294,8 +299,13 @@ def solved(
         image = shift[i] + times_row(defect[i], [enclosed(e)[1] for e in within])
         require(image <= nearer[i], f"{words}: {name}: not shown to be so near its centre")
     pairs = [enclosed(x) for x in centre], [enclosed(e)[1] for e in within]
+    ends = [(enclosed(x - d)[1], enclosed(x + d)[0]) for x, d in zip(centre, box, strict=True)]
     for _ in range(NARROWER):
-        pairs = narrowed(description, system, known, matrix, defect, *pairs)
+        closer = narrowed(description, system, known, matrix, defect, *pairs)
+        inside = all(low <= x[0] and x[1] <= high for x, (low, high) in zip(closer[0], ends, strict=True))
+        if not (inside and all(map(int.__le__, closer[1], pairs[1]))):
+            break
+        pairs = closer
     return {name: Enclosed((x[0] - e, x[1] + e)) for name, x, e in zip(names, *pairs, strict=True)}
 
 
@@ -303,7 +313,7 @@ def narrowed(
     description: Mapping, system: Mapping, known: Mapping[str, Enclosed], matrix: Sequence, defect: Sequence,
     centre: Sequence[Pair], within: Sequence[int],
 ) -> tuple[list[Pair], list[int]]:  # fmt: skip
-    """The zero once more: it is within M within of the image of the centre."""
+    """The zero once more, for a centre in the box: it is within M within of the centre's image."""
     names = [unknown["name"] for unknown in system["unknowns"]]
     values = Values(description, {**known, **dict(zip(names, map(Enclosed, centre), strict=True))})
     residual = [values(row).pair for row in system["residual"]]
@@ -313,7 +323,7 @@ def narrowed(
         times_row(row, within) + max(high - middle, middle - low)
         for row, middle, (low, high) in zip(defect, middles, image, strict=True)
     ]
-    return ([(m, m) for m in middles], radii) if all(map(int.__le__, radii, within)) else (list(centre), list(within))
+    return [(m, m) for m in middles], radii
 
 
 def combined(row: Sequence[Pair], numbers: Sequence[Pair]) -> Pair:

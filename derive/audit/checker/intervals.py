@@ -102,11 +102,13 @@ def turned(a: Pair) -> tuple[Pair, Pair]:
     for _ in range(quarters % 4):
         cosine, sine = minus(sine), cosine
     wide = max(a[1] - middle, middle - a[0])
+    return widened(cosine, changed(sine, wide)), widened(sine, changed(cosine, wide))
+
+
+def changed(slope: Pair, wide: int) -> int:
+    """|slope| w + w^2/2, rounded upwards."""
     off = 0, wide
-    return tuple(
-        widened(value, times(plus(magnitude(slope), times(off, enclosed(Fraction(1, 2)))), off)[1])
-        for value, slope in ((cosine, sine), (sine, cosine))
-    )  # type: ignore[return-value]
+    return times(plus(magnitude(slope), times(off, enclosed(Fraction(1, 2)))), off)[1]
 
 
 def magnitude(a: Pair) -> Pair:
@@ -216,10 +218,9 @@ def square_root(a: Enclosed) -> Enclosed:
     return Enclosed(pair).along((reciprocal(times(enclosed(2), pair)), a))
 
 
-def power(a: Enclosed, exponent: object) -> Enclosed:
-    exact = exponent if isinstance(exponent, int) else Fraction(exponent[1], exponent[2])  # type: ignore[index]
-    require(exact.denominator in (1, 2) and abs(exact) <= 64, f"a power of {exact} is not foreseen")
-    return whole_power(a if exact.denominator == 1 else square_root(a), exact.numerator)
+def power(a: Enclosed, exponent: Fraction) -> Enclosed:
+    require(exponent.denominator in (1, 2) and abs(exponent) <= 64, f"a power of {exponent} is not foreseen")
+    return whole_power(a if exponent.denominator == 1 else square_root(a), exponent.numerator)
 
 
 def sine(a: Enclosed) -> Enclosed:

@@ -15,7 +15,10 @@ from pathlib import Path
 from meshwright.base.errors import UsageError
 
 SHIPPED = Path(__file__).parent.parent / "_generated"
-ENVIRONMENT, GROUP = "MESHWRIGHT_DRIVES", "meshwright.drives"
+
+#: Variable of the environment and entry points of packages that name folders of drives.
+ENVIRONMENT = "MESHWRIGHT_DRIVES"
+GROUP = "meshwright.drives"
 
 
 def get_include():

@@ -112,7 +112,9 @@ def text(expression: Any) -> str:
 
 
 #: How tightly an operation binds.
-_SUM, _PRODUCT, _POWER = 1, 2, 3
+_SUM = 1
+_PRODUCT = 2
+_POWER = 3
 
 
 def _text(expression: Any, around: int) -> str:

@@ -93,7 +93,8 @@ def say_proportions(drive):
 
 
 #: Magnitudes of an option's number, in its own unit, outside which products and quotients of it leave double precision.
-SMALLEST, LARGEST = 1e-12, 1e12
+SMALLEST = 1e-12
+LARGEST = 1e12
 
 
 def beyond_arithmetic(value):

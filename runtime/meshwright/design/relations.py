@@ -28,7 +28,10 @@ RESOLUTION = 1e-15
 OFFERED = 4
 TOGETHER = 2
 
-GIVEN, DERIVED, ASSUMED = "given", "derived", "assumed"
+#: Where the value of a size comes from.
+GIVEN = "given"
+DERIVED = "derived"
+ASSUMED = "assumed"
 
 
 @dataclass(frozen=True)

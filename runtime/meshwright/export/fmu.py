@@ -58,8 +58,9 @@ class Variable:
     start: float = 0.0
 
 
-#: The four inputs; what depends on the pinion's angle alone, and on all.
-PHI_A, ALL = (1,), (1, 2, 3, 4)
+#: Inputs by their numbers: the pinion's angle alone; all four.
+PHI_A = (1,)
+ALL = (1, 2, 3, 4)
 
 VARIABLES = (
     Variable(1, "phi_a", "rad", "input", "continuous", "angle of the pinion's shaft"),
@@ -87,7 +88,11 @@ FLANGES = (
     Variable(19, "flange_a.tau", "N.m", "output", "continuous", "torque into the mesh at the pinion", depends=ALL),
     Variable(20, "flange_b.tau", "N.m", "output", "continuous", "torque into the mesh at the wheel", depends=ALL),
 )
-GAPS, FIRST_MISALIGNMENT = (15, 16), 100
+#: Numbers of the least gaps of both sides, by which a simulator finds events.
+GAPS = (15, 16)
+
+#: Number of the first error of the assembly.
+FIRST_MISALIGNMENT = 100
 
 #: Samples of a pitch at which it is asked whether the drive jams.
 SAMPLES = 64
