@@ -12,7 +12,7 @@ PUBLISHED := recess-action-full
 compiled = $1 runtime/meshwright/base/compile.py generated $(SHIP) $$($1 -m derive.packaged) --objects $(OBJECTS)
 shown = $(compiled) --now $$($1 -m derive.packaged $(PUBLISHED))
 DERIVED = $(PY) -m derive.products
-CHECKERS := check_description check check_code check_bounded check_print
+CHECKERS := check_description check check_code check_bounded check_shipped check_print
 
 .PHONY: help setup generate audit kernel coq bench build check examples run lint test solver cmake test-fe validate site wheels dist
 .PHONY: wheels-run machines precompiled preshown fuzz benchmark coverage compilers sanitizers emulators

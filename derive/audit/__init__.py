@@ -12,8 +12,8 @@ record.py        the whole record, and the files it is written to; store.py page
 checker/         re-checks the record, the generated C against calculus and against the descriptions of the drives,
                  edges, limits and CasADi, and the descriptions against what their sources print (printed.txt) and the
                  laws of enveloping; imports nothing else of the compiler, ships beside the record with its commands
-                 check.py, check_code.py, check_description.py, check_bounded.py and check_print.py; check_contact.py
-                 verifies proofs of contacts that the runtime writes
+                 check.py, check_code.py, check_description.py, check_bounded.py, check_shipped.py and check_print.py;
+                 check_contact.py verifies proofs of contacts that the runtime writes
 kernel/          every proof as a theorem that Coq accepts
 explain.py       from a C function or an equation back to the sources
 """

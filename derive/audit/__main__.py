@@ -13,12 +13,14 @@ from pathlib import Path
 
 from derive import products
 from derive.audit import explain
-from derive.audit.checker import check_bounded, check_code, check_description, check_print, check_record
+from derive.audit.checker import check_bounded, check_code, check_description, check_print, check_record, check_shipped
 from derive.audit.checker.record import read_record
 from derive.audit.checker.refusal import Rejected
 from derive.files import replace_text
 
-GENERATED = Path(__file__).resolve().parents[2] / "generated"
+ROOT = Path(__file__).resolve().parents[2]
+GENERATED = ROOT / "generated"
+RUNTIME = ROOT / "runtime" / "c"
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -44,7 +46,8 @@ def main(arguments: list[str] | None = None) -> int:
         return 2
     if options.command == "verify":
         checkers = (check_record, check_code, check_description, check_bounded, check_print)
-        return max(checker.main([str(folder)]) for checker in checkers)
+        ends = [checker.main([str(folder)]) for checker in checkers]
+        return max(*ends, check_shipped.main([str(folder), "--runtime", str(RUNTIME)]))
     if options.command == "kernel":
         return _kernel(folder, options.output)
     if options.command == "explain":

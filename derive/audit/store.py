@@ -17,6 +17,7 @@ COMMANDS = {
     "check_description.py": "check_description",
     "check_bounded.py": "check_bounded",
     "check_print.py": "check_print",
+    "check_shipped.py": "check_shipped",
     "check_contact.py": "check_contact",
 }
 COMMAND = '''#!/usr/bin/env python3

@@ -62,6 +62,14 @@ check_bounded.py compares the equations of edge contact with margins, points and
 Jacobian and the slopes and second derivatives of limits with dual numbers, runs CasADi's own lists of instructions
 beside the C functions, result by result, and the tables of certified functions likewise.
 
+Nothing of a header is unread
+check_shipped.py cuts each header into its items and accounts for every one, in its order: the signatures of the
+functions that the other checks run and what stands around their statements, tables and macros made of the description,
+names, units and domains included, the texts of runtime/c token by token, every constant as the double nearest to what
+it stands for, and a sample that is a contact. In the header of proofs the functions have the middles of the drive's
+own equations and every running error is that of its operation. Of tokens changed at random at most three in a hundred
+are accepted: numbers that nothing reads, and radii that are larger than they must be.
+
 The description is what is printed
 printed.txt says, family by family, what papers, books and standards print of machine and assembly motions, tool edges,
 rules, sizes, guards, margins and outward normals. check_print.py evaluates it beside the plain data of each drive, so
