@@ -15,7 +15,7 @@ DERIVED = $(PY) -m derive.products
 CHECKERS := check_description check check_code check_bounded check_shipped check_print
 
 .PHONY: help setup generate audit kernel coq bench build check examples run lint test solver cmake test-fe validate site wheels dist
-.PHONY: wheels-run machines precompiled preshown fuzz benchmark coverage compilers sanitizers emulators
+.PHONY: wheels-run machines nvrtc precompiled preshown fuzz benchmark coverage compilers sanitizers emulators
 
 # Compiled modules are kept, whatever the environment says: each of many short processes would compile them anew.
 export PYTHONDONTWRITEBYTECODE :=
@@ -123,8 +123,14 @@ benchmark: setup build
 
 # The longer tests: many random designs and inputs, every drive, brute force, all theorems; some minutes of a processor for
 # each file, with SIZE=full all that there is. The site is built too, in which no link or reference may be broken.
-validate: setup build solver cmake cad sanitizers emulators coq site
+validate: setup build solver cmake cad sanitizers emulators nvrtc coq site
 	MESHWRIGHT_SIZE=$(SIZE) $(PY) -m pytest -m validate --numprocesses auto
+
+# NVIDIA's compiler at run time from its Python package, where it can be had: it compiles for a GPU without one. Tests say so
+# if it is missing.
+nvrtc: setup
+	@$(PY) -c "import nvidia.cuda_nvrtc" 2>/dev/null || $(PY) -m pip install --quiet nvidia-cuda-nvrtc-cu12 2>/dev/null \
+		|| echo "NVRTC is not installable here: headers are not compiled for a GPU"
 
 # An emulator of ARM64, where it can be had without asking.
 emulators:

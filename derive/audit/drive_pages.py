@@ -265,7 +265,7 @@ def _definitions(described: dict) -> Iterator[tuple[Markup, str, str]]:
 
 
 def _functions(name: str, header: str, rests: Mapping[str, tuple[str, ...]]) -> Iterator[Function]:
-    pattern = re.compile(rf"((?:/\*(?:[^*]|\*(?!/))*\*/\s)*)static inline \w+ {name}_(\w+)\(")
+    pattern = re.compile(rf"((?:/\*(?:[^*]|\*(?!/))*\*/\s)*)(?:MW_DEVICE )?static inline \w+ {name}_(\w+)\(")
     for match in pattern.finditer(header):
         words = re.sub(r"/\* Equations:.*?\*/", "", match[1], flags=re.DOTALL)
         meaning = re.sub(r"\s*\n \* ?|/\* ?|\*/", " ", words).split(". ")[0].strip(" .")

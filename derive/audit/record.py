@@ -61,5 +61,6 @@ def files(record: Ledger, generated: Mapping[str, str]) -> dict[str, str]:
 
 def functions_of(header: str) -> dict[str, list[str]]:
     """Function name -> equation ids, from the comments of a generated header."""
-    found = re.finditer(r"/\* Equations: ([^*]*(?:\*[^/][^*]*)*)\. \*/\nstatic inline \w+ (\w+)\(", header)
+    stated = r"/\* Equations: ([^*]*(?:\*[^/][^*]*)*)\. \*/\n"
+    found = re.finditer(stated + r"(?:MW_DEVICE )?static inline \w+ (\w+)\(", header)
     return {match[2]: [key.strip(" *\n") for key in match[1].split(",")] for match in found}

@@ -228,6 +228,7 @@ def header(plan: Schedule, routines: Routines, description: dict, runtime):
         description=description,
         other_flank=_other_flank(drive),
         sample=_sample(description["self_test"]),
+        pose=[*plan.pose, *_misalignments(drive, description["shapes"]["s"][0] - len(drive.parameters))],
         tables=embedded.tables(runtime),
         solver=embedded.solver(runtime),
         indices=list(_indices(description)),
@@ -264,6 +265,11 @@ def _other_flank(drive):
     """Index of the parameter whose sign tells two flanks of one design apart; −1 where each has a design of its own."""
     signs = [k for k, p in enumerate(drive.parameters) if p.table == Table.FLANK]
     return -1 if drive.flanks_apart or not signs else signs[0]
+
+
+def _misalignments(drive, first):
+    """Places of the misalignments among the parameters that begin at ``first``."""
+    return [first + k for k, p in enumerate(drive.parameters) if p.table == Table.MISALIGNMENT]
 
 
 def _sample(test):

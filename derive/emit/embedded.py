@@ -11,7 +11,7 @@ _COMMENT = re.compile(r"[ \t]*/\*.*?\*/", re.DOTALL)
 #: Headers of the solver that need all others.
 ROOTS = ("complete.h", "cycle.h", "self_test.h")
 #: Headers that each generated one repeats before its own text.
-TABLES = ("mw_arithmetic.h", "mw_model.h", "mw_status.h")
+TABLES = ("mw_device.h", "mw_arithmetic.h", "mw_model.h", "mw_status.h")
 _EMPTY = re.compile(r"\n(?:[ \t]*\n)+")
 
 

@@ -172,7 +172,7 @@ def self_test(plan):
 
 def parameters_at(plan):
     """Where the parameters, at the end of the state, begin: after the plan's state and what X_follow keeps, which is
-    MWI_KEPT numbers of runtime/c/solver/follow.h and two solutions.
+    MWI_KEPT numbers of runtime/c/solver/warm.h and two solutions.
     """
     return len(plan.state) + 3 + 2 * len(plan.unknowns)
 

@@ -13,7 +13,7 @@ import mpmath
 import sympy as sp
 
 from derive.language.drive import Drive
-from derive.language.symbols import Quantity
+from derive.language.symbols import Quantity, Table
 from derive.passes.completion import ParameterTape, SystemTape
 from derive.passes.linearise import Linear, Matrix
 from derive.program.lowering import Lowering
@@ -231,6 +231,13 @@ class Bound(Read):
         nodes, design = self.tape.nodes, set(list(self.state)[: self.design_slots])
         turned = (i for i in self.tape.needed(self.residual, design) if nodes[i].op in ("sin", "cos"))
         return list(dict.fromkeys(nodes[i].args[0] for i in turned))
+
+    @property
+    def pose(self) -> list[int]:
+        """Numbers of the state's values of the design that a misalignment changes."""
+        moved = {p.symbol for p in self.drive.parameters if p.table == Table.MISALIGNMENT}
+        design = list(self.state)[: self.design_slots]
+        return [k for k, node in enumerate(design) if moved & self.tape.inputs_of([node])]
 
 
 @dataclass(frozen=True)

@@ -33,15 +33,75 @@
 #ifndef MESHWRIGHT_BEVEL_GENERATED_H
 #define MESHWRIGHT_BEVEL_GENERATED_H
 
+/* Processors beside the host. Each generated header repeats this block, so that it can be used alone.  SPDX-License-Identifier: MIT-0
+ *
+ * MW_DEVICE stands before every function that a device can call: what compilers for one ask for (CUDA, HIP), else nothing; who
+ * defines it before has that. With MW_DEVICE_ONLY a translation unit holds one drive without what no device has: tables of
+ * functions, the walk from start values, words. X_setup, X_set_phi, X_eval, X_step, X_observe, X_along, X_reduce and all else that
+ * is computed in straight lines are there, X_geometry, and X_follow, which answers MW_DIVERGED where it would solve anew. Compile
+ * without contraction (nvcc and NVRTC: --fmad=false; HIP: -ffp-contract=off) for the same bits as on the host. */
+#ifndef MW_DEVICE_H
+#define MW_DEVICE_H
+
+#if defined(__CUDACC_RTC__) || defined(__HIPCC_RTC__)
+/* A compiler at run time has no host and no headers. */
+#ifndef MW_DEVICE_ONLY
+#define MW_DEVICE_ONLY
+#endif
+#ifndef NAN
+#define NAN __builtin_bit_cast(double, 0x7ff8000000000000ull)
+#endif
+#ifndef HUGE_VAL
+#define HUGE_VAL __builtin_bit_cast(double, 0x7ff0000000000000ull)
+#endif
+#ifndef NULL
+#define NULL 0
+#endif
+#else
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
+#endif
+
+#if defined(__CUDACC__) || defined(__HIPCC__)
+#define MW_OF_DEVICES 1
+#else
+#define MW_OF_DEVICES 0
+#endif
+#ifndef MW_DEVICE
+#if MW_OF_DEVICES
+#define MW_DEVICE __host__ __device__
+#else
+#define MW_DEVICE
+#endif
+#endif
+
+/* Before a table that such functions read, before functions that read one, and around what only a host has: its tables are not
+ * a device's. */
+#ifdef MW_DEVICE_ONLY
+#if MW_OF_DEVICES
+#define MW_TABLE static __device__ const
+#else
+#define MW_TABLE static const
+#endif
+#define MW_BY_TABLE MW_DEVICE
+#define MW_HOST(of_host) NULL
+#else
+#define MW_TABLE static const
+#define MW_BY_TABLE
+#define MW_HOST(of_host) of_host
+#endif
+
+#endif
 
 /* The arithmetic that the results rest on: IEEE doubles, every operation rounded by itself. Each generated header repeats this
  * block, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_ARITHMETIC
 #define MW_ARITHMETIC
 
+#ifndef MW_DEVICE_ONLY
 #include <float.h>
+#endif
 
 /* Options that change results are refused where a macro shows them; X_self_test finds the others. Who defines
  * MW_ANY_ARITHMETIC takes what comes. */
@@ -264,6 +324,8 @@ typedef struct mw_cycle {
 #define bevel_generated_NANCHOR 18
 #define bevel_generated_NEAREST 3.814697265625e-06
 #define bevel_generated_OTHER_FLANK -1
+#define bevel_generated_TEETH 1
+#define bevel_generated_REFERENCE (62)
 #define bevel_generated_ABI 7
 #define bevel_generated_SPEC_HASH "f1de97616015032c96bda360442475e953d1617a018eeadeeabf13486f3aebff"
 
@@ -595,7 +657,7 @@ typedef union mw_bits {
 #endif
 
 /* Sine and cosine, relative error below 3.2e-16 for |a| < 1.6e6. */
-MW_INLINE void bevel_generated_sincos(double a, double *sine, double *cosine)
+MW_DEVICE MW_INLINE void bevel_generated_sincos(double a, double *sine, double *cosine)
 {
     const double magic = 6755399441055744.0; /* 1.5 * 2^52: a sum with it ends in the nearest integer to the rest */
     mw_bits turned, s, c;
@@ -635,7 +697,7 @@ MW_INLINE void bevel_generated_sincos(double a, double *sine, double *cosine)
 
 /* The same of an angle close to at[0], at[1] and at[2] being sine and cosine of that one. The square of the distance joins
  * *away: below 3.814697265625e-06 the series leave less than 1e-19. */
-MW_INLINE void bevel_generated_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
+MW_DEVICE MW_INLINE void bevel_generated_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
 {
     const double r = a - at[0], z = r * r;
     const double u = MW_FNMA(r * z, MW_FNMA(z, 0.008333333333333333, 0.16666666666666666), r);
@@ -646,13 +708,13 @@ MW_INLINE void bevel_generated_near_sincos(double a, double *sine, double *cosin
 }
 
 /* Sine and cosine by a call instead of written out in place, for all but the steps that solve for a contact. */
-MW_CALLED void bevel_generated_seldom_sincos(double a, double *sine, double *cosine)
+MW_DEVICE MW_CALLED void bevel_generated_seldom_sincos(double a, double *sine, double *cosine)
 {
     bevel_generated_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
-MW_INLINE double bevel_generated_atan2(double y, double x)
+MW_DEVICE MW_INLINE double bevel_generated_atan2(double y, double x)
 {
     const double ax = x < 0.0 ? -x : x, ay = y < 0.0 ? -y : y;
     const double large = ax > ay ? ax : ay, small = ax > ay ? ay : ax;
@@ -694,7 +756,7 @@ MW_INLINE double bevel_generated_atan2(double y, double x)
 #endif
 
 /* Fill in every open parameter (not a number) that has a default or follows from others. p[bevel_generated_NP]. */
-static inline void bevel_generated_derive(double *p)
+MW_DEVICE static inline void bevel_generated_derive(double *p)
 {
     if (p[0] != p[0]) { /* s */
         p[0] = 1.0;
@@ -837,7 +899,7 @@ static inline void bevel_generated_derive(double *p)
 
 /* Design system gear_mean_point: q[bevel_generated_NP + 1] are the parameters and the share of the path (0 to 1),
  * y[2] = (phi_cradle_gear, theta_gear). */
-static inline void bevel_generated_gear_mean_point_guess(const double *q, double *y)
+MW_DEVICE static inline void bevel_generated_gear_mean_point_guess(const double *q, double *y)
 {
     (void)q;
     double sin_q_gear, cos_q_gear; bevel_generated_seldom_sincos(q[37], &sin_q_gear, &cos_q_gear);
@@ -853,7 +915,7 @@ static inline void bevel_generated_gear_mean_point_guess(const double *q, double
     y[1] = t_f8x5j;
 }
 
-static inline void bevel_generated_gear_mean_point_scale(const double *q, double *y)
+MW_DEVICE static inline void bevel_generated_gear_mean_point_scale(const double *q, double *y)
 {
     (void)q;
     const double t_c5w8d = q[56] / q[31];
@@ -861,7 +923,7 @@ static inline void bevel_generated_gear_mean_point_scale(const double *q, double
     y[1] = t_c5w8d;
 }
 
-static inline void bevel_generated_gear_mean_point_eval(const double *q, const double *y, double *R, double *J)
+MW_DEVICE static inline void bevel_generated_gear_mean_point_eval(const double *q, const double *y, double *R, double *J)
 {
     double sin_gamma_m_gear, cos_gamma_m_gear; bevel_generated_seldom_sincos(q[40], &sin_gamma_m_gear, &cos_gamma_m_gear);
     double sin_tilt_gear, cos_tilt_gear; bevel_generated_seldom_sincos(q[38], &sin_tilt_gear, &cos_tilt_gear);
@@ -1314,12 +1376,12 @@ static inline void bevel_generated_gear_mean_point_eval(const double *q, const d
 }
 
 /* Number of parameters it would fill in. */
-static inline int bevel_generated_gear_mean_point_open(const double *p)
+MW_DEVICE static inline int bevel_generated_gear_mean_point_open(const double *p)
 {
     return (p[58] != p[58]) + (p[57] != p[57]) + (p[63] != p[63]) + (p[64] != p[64]) + (p[65] != p[65]) + (p[66] != p[66]) + (p[67] != p[67]) + (p[68] != p[68]);
 }
 
-static inline void bevel_generated_gear_mean_point_fill(const double *y, double *q)
+MW_DEVICE static inline void bevel_generated_gear_mean_point_fill(const double *y, double *q)
 {
     double sin_gamma_m_gear, cos_gamma_m_gear; bevel_generated_seldom_sincos(q[40], &sin_gamma_m_gear, &cos_gamma_m_gear);
     const double t_hfp4m = y[0] + q[37];
@@ -1477,7 +1539,7 @@ static inline void bevel_generated_gear_mean_point_fill(const double *y, double 
 
 /* Design system mesh_angle: q[bevel_generated_NP + 1] are the parameters and the share of the path (0 to 1),
  * y[1] = (phi_2_meeting). */
-static inline void bevel_generated_mesh_angle_guess(const double *q, double *y)
+MW_DEVICE static inline void bevel_generated_mesh_angle_guess(const double *q, double *y)
 {
     (void)q;
     const double t_fs1s0 = bevel_generated_atan2(q[64], q[63]);
@@ -1485,13 +1547,13 @@ static inline void bevel_generated_mesh_angle_guess(const double *q, double *y)
     y[0] = t_x4c1k;
 }
 
-static inline void bevel_generated_mesh_angle_scale(const double *q, double *y)
+MW_DEVICE static inline void bevel_generated_mesh_angle_scale(const double *q, double *y)
 {
     (void)q;
     y[0] = 1.0;
 }
 
-static inline void bevel_generated_mesh_angle_eval(const double *q, const double *y, double *R, double *J)
+MW_DEVICE static inline void bevel_generated_mesh_angle_eval(const double *q, const double *y, double *R, double *J)
 {
     double sin_Sigma, cos_Sigma; bevel_generated_seldom_sincos(q[3], &sin_Sigma, &cos_Sigma);
     double sin_phi_2_meeting, cos_phi_2_meeting; bevel_generated_seldom_sincos(y[0], &sin_phi_2_meeting, &cos_phi_2_meeting);
@@ -1532,19 +1594,19 @@ static inline void bevel_generated_mesh_angle_eval(const double *q, const double
 }
 
 /* Number of parameters it would fill in. */
-static inline int bevel_generated_mesh_angle_open(const double *p)
+MW_DEVICE static inline int bevel_generated_mesh_angle_open(const double *p)
 {
     return (p[59] != p[59]);
 }
 
-static inline void bevel_generated_mesh_angle_fill(const double *y, double *q)
+MW_DEVICE static inline void bevel_generated_mesh_angle_fill(const double *y, double *q)
 {
     if (q[59] != q[59]) q[59] = y[0];
 }
 
 /* Design system pinion_mean_point: q[bevel_generated_NP + 1] are the parameters and the share of the path (0 to 1),
  * y[2] = (phi_cradle_pinion, theta_pinion). */
-static inline void bevel_generated_pinion_mean_point_guess(const double *q, double *y)
+MW_DEVICE static inline void bevel_generated_pinion_mean_point_guess(const double *q, double *y)
 {
     (void)q;
     double sin_q_pinion, cos_q_pinion; bevel_generated_seldom_sincos(q[11], &sin_q_pinion, &cos_q_pinion);
@@ -1560,7 +1622,7 @@ static inline void bevel_generated_pinion_mean_point_guess(const double *q, doub
     y[1] = t_df2g0;
 }
 
-static inline void bevel_generated_pinion_mean_point_scale(const double *q, double *y)
+MW_DEVICE static inline void bevel_generated_pinion_mean_point_scale(const double *q, double *y)
 {
     (void)q;
     const double t_x7640 = q[30] / q[5];
@@ -1568,7 +1630,7 @@ static inline void bevel_generated_pinion_mean_point_scale(const double *q, doub
     y[1] = t_x7640;
 }
 
-static inline void bevel_generated_pinion_mean_point_eval(const double *q, const double *y, double *R, double *J)
+MW_DEVICE static inline void bevel_generated_pinion_mean_point_eval(const double *q, const double *y, double *R, double *J)
 {
     double sin_gamma_m_pinion, cos_gamma_m_pinion; bevel_generated_seldom_sincos(q[14], &sin_gamma_m_pinion, &cos_gamma_m_pinion);
     const double t_nmd79 = y[0] + q[11];
@@ -1984,12 +2046,12 @@ static inline void bevel_generated_pinion_mean_point_eval(const double *q, const
 }
 
 /* Number of parameters it would fill in. */
-static inline int bevel_generated_pinion_mean_point_open(const double *p)
+MW_DEVICE static inline int bevel_generated_pinion_mean_point_open(const double *p)
 {
     return (p[61] != p[61]) + (p[60] != p[60]) + (p[69] != p[69]) + (p[70] != p[70]) + (p[71] != p[71]);
 }
 
-static inline void bevel_generated_pinion_mean_point_fill(const double *y, double *q)
+MW_DEVICE static inline void bevel_generated_pinion_mean_point_fill(const double *y, double *q)
 {
     double sin_gamma_m_pinion, cos_gamma_m_pinion; bevel_generated_seldom_sincos(q[14], &sin_gamma_m_pinion, &cos_gamma_m_pinion);
     const double t_nmd79 = y[0] + q[11];
@@ -2128,7 +2190,7 @@ static inline void bevel_generated_pinion_mean_point_fill(const double *y, doubl
 }
 
 /* Derived sizes, for reports. p[bevel_generated_NP] complete; d[bevel_generated_ND]. */
-static inline void bevel_generated_size(const double *p, double *d)
+MW_DEVICE static inline void bevel_generated_size(const double *p, double *d)
 {
     const double t_p6wb7 = p[1] / p[2];
     d[0] = t_p6wb7;
@@ -2140,7 +2202,7 @@ static inline void bevel_generated_size(const double *p, double *d)
 
 /* Of parameters that bevel_generated_derive leaves open: the number of the text in bevel_generated_guard_texts that names keys which the
  * design lacks; else `otherwise`. */
-static inline int bevel_generated_missing(const double *p, int otherwise)
+MW_DEVICE static inline int bevel_generated_missing(const double *p, int otherwise)
 {
     if (p[1] != p[1]) return 19;
     if (p[2] != p[2]) return 20;
@@ -2170,7 +2232,7 @@ static inline int bevel_generated_missing(const double *p, int otherwise)
 /* Design stage: p[bevel_generated_NP] complete; s[bevel_generated_NS], the parameters themselves at its end. Returns 0, or 1 + the index in
  * bevel_generated_guard_texts of what does not hold: of a key that is missing first. */
 /* Equations: derivation/quotient, derivation/root, derivation/arc, derivation/step-size. */
-static inline int bevel_generated_setup(const double *p, double *s)
+MW_DEVICE static inline int bevel_generated_setup(const double *p, double *s)
 {
     int failed = 0;
     {
@@ -2641,7 +2703,7 @@ static inline int bevel_generated_setup(const double *p, double *s)
 }
 
 /* Instant stage: input angle phi, rad. */
-static inline void bevel_generated_set_phi(double *s, double phi)
+MW_DEVICE static inline void bevel_generated_set_phi(double *s, double phi)
 {
     const double t_m9n6q = phi - MW_S(phi_1_mean);
     const double t_nrsn7 = phi * MW_S(ratio);
@@ -2657,7 +2719,7 @@ static inline void bevel_generated_set_phi(double *s, double phi)
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, bevel/meshing, bevel/pole,
  *   derivation/explicit, bevel/linear, derivation/translation, conventions/rotations, conventions/sums,
  *   derivation/rotation, cylindrical_worm/contact, derivation/angles, derivation/root, derivation/quotient. */
-static inline void bevel_generated_eval(const double *s, const double *x, double *R, double *J)
+MW_DEVICE static inline void bevel_generated_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t_nmd79 = MW_S(q_pinion) + x[0];
     double sin_nmd79, cos_nmd79; bevel_generated_sincos(t_nmd79, &sin_nmd79, &cos_nmd79);
@@ -3377,7 +3439,7 @@ static inline void bevel_generated_eval(const double *s, const double *x, double
  *   derivation/explicit, bevel/linear, derivation/translation, conventions/rotations, conventions/sums,
  *   derivation/rotation, cylindrical_worm/contact, derivation/angles, derivation/elimination,
  *   derivation/step-size, derivation/root, derivation/quotient. */
-static inline double bevel_generated_step(const double *s, double *x)
+MW_DEVICE static inline double bevel_generated_step(const double *s, double *x)
 {
     const double t_hfp4m = MW_S(q_gear) + x[2];
     const double t_nmd79 = MW_S(q_pinion) + x[0];
@@ -4154,7 +4216,7 @@ static inline double bevel_generated_step(const double *s, double *x)
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, bevel/meshing, bevel/pole,
  *   derivation/explicit, bevel/linear, derivation/translation, conventions/rotations, conventions/sums,
  *   derivation/rotation, cylindrical_worm/contact, derivation/angles, derivation/root, derivation/quotient. */
-static inline double bevel_generated_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
+MW_DEVICE static inline double bevel_generated_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
 {
     double away = 0.0;
     (void)at, (void)phi;
@@ -4426,7 +4488,7 @@ static inline double bevel_generated_by_anchor(const double *s, const double *at
 #endif
 
 /* The angles at phi and x of which bevel_generated_by_anchor reads sine and cosine, each with these: at[bevel_generated_NANCHOR]. */
-static inline void bevel_generated_anchor(const double *s, double phi, const double *x, double *at)
+MW_DEVICE static inline void bevel_generated_anchor(const double *s, double phi, const double *x, double *at)
 {
     (void)s, (void)phi, (void)x, (void)at;
     const double t_nmd79 = MW_S(q_pinion) + x[0];
@@ -4465,7 +4527,7 @@ static inline void bevel_generated_anchor(const double *s, double phi, const dou
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, bevel/meshing, bevel/pole,
  *   derivation/explicit, bevel/linear, derivation/translation, conventions/rotations, conventions/sums,
  *   derivation/rotation, cylindrical_worm/contact, derivation/angles. */
-static inline void bevel_generated_along(const double *s, double phi, const double *x, const double *v, double *d1, double *d2)
+MW_DEVICE static inline void bevel_generated_along(const double *s, double phi, const double *x, const double *v, double *d1, double *d2)
 {
     const double t_mn2kr = MW_FMA(x[0], MW_S(c_6_pinion), MW_S(c_5_pinion));
     const double t_y5knq = MW_FMA(x[0], t_mn2kr, MW_S(c_4_pinion));
@@ -5761,26 +5823,26 @@ static inline void bevel_generated_along(const double *s, double phi, const doub
 }
 
 /* First guess y[bevel_generated_NSTART] of the start system. */
-static inline void bevel_generated_guess(const double *s, double *y)
+MW_DEVICE static inline void bevel_generated_guess(const double *s, double *y)
 {
     (void)s, (void)y;
 }
 
 /* Natural size y[bevel_generated_NSTART] of each unknown of the start system. */
-static inline void bevel_generated_start_scale(const double *s, double *y)
+MW_DEVICE static inline void bevel_generated_start_scale(const double *s, double *y)
 {
     (void)s, (void)y;
 }
 
 /* Start system: residual and Jacobian as in bevel_generated_eval. */
-static inline void bevel_generated_start_eval(const double *s, const double *y, double *R, double *J)
+MW_DEVICE static inline void bevel_generated_start_eval(const double *s, const double *y, double *R, double *J)
 {
     (void)s, (void)y, (void)R;
     if (J == NULL) return;
 }
 
 /* Start values x[bevel_generated_NX] from the solved start system. */
-static inline void bevel_generated_start_solution(const double *s, const double *y, double *x)
+MW_DEVICE static inline void bevel_generated_start_solution(const double *s, const double *y, double *x)
 {
     (void)s, (void)y;
     x[0] = MW_S(dz34h);
@@ -5791,7 +5853,7 @@ static inline void bevel_generated_start_solution(const double *s, const double 
 }
 
 /* Natural size x[bevel_generated_NX] of each unknown. */
-static inline void bevel_generated_scale(const double *s, double *x)
+MW_DEVICE static inline void bevel_generated_scale(const double *s, double *x)
 {
     (void)s;
     x[0] = 1.0;
@@ -5840,7 +5902,7 @@ static inline void bevel_generated_scale(const double *s, double *x)
  *   derivation/explicit, bevel/linear, derivation/translation, conventions/rotations, conventions/sums,
  *   derivation/rotation, cylindrical_worm/contact, derivation/angles, derivation/unit,
  *   cylindrical_worm/undercut, derivation/root, derivation/quotient, derivation/arc. */
-static inline void bevel_generated_observe(const double *s, const double *x, double *o)
+MW_DEVICE static inline void bevel_generated_observe(const double *s, const double *x, double *o)
 {
     double sin_theta_pinion, cos_theta_pinion; bevel_generated_seldom_sincos(x[1], &sin_theta_pinion, &cos_theta_pinion);
     const double t_mq924 = cos_theta_pinion * MW_S(fr2nb);
@@ -6856,7 +6918,7 @@ static inline void bevel_generated_observe(const double *s, const double *x, dou
  *   derivation/explicit, bevel/linear, derivation/translation, conventions/rotations, conventions/sums,
  *   derivation/rotation, derivation/unit, cylindrical_worm/undercut, derivation/root, derivation/quotient,
  *   derivation/arc. */
-static inline void bevel_generated_flank_pinion(const double *s, const double *q, double *o)
+MW_DEVICE static inline void bevel_generated_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
     const double t_nmd79 = MW_S(q_pinion) + q[0];
@@ -7190,7 +7252,7 @@ static inline void bevel_generated_flank_pinion(const double *s, const double *q
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, bevel/meshing, bevel/pole,
  *   derivation/explicit, bevel/linear, derivation/translation, conventions/rotations, conventions/sums,
  *   derivation/rotation, derivation/unit, cylindrical_worm/undercut, derivation/root, derivation/quotient. */
-static inline void bevel_generated_curvature_flank_pinion(const double *s, const double *q, double *o)
+MW_DEVICE static inline void bevel_generated_curvature_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
     const double t_nmd79 = MW_S(q_pinion) + q[0];
@@ -7614,7 +7676,7 @@ static inline void bevel_generated_curvature_flank_pinion(const double *s, const
  *   derivation/explicit, bevel/linear, derivation/translation, conventions/rotations, conventions/sums,
  *   derivation/rotation, derivation/unit, cylindrical_worm/undercut, derivation/root, derivation/quotient,
  *   derivation/arc. */
-static inline void bevel_generated_flank_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void bevel_generated_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     const double t_hfp4m = MW_S(q_gear) + q[0];
@@ -7946,7 +8008,7 @@ static inline void bevel_generated_flank_wheel(const double *s, const double *q,
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, bevel/meshing, bevel/pole,
  *   derivation/explicit, bevel/linear, derivation/translation, conventions/rotations, conventions/sums,
  *   derivation/rotation, derivation/unit, cylindrical_worm/undercut, derivation/root, derivation/quotient. */
-static inline void bevel_generated_curvature_flank_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void bevel_generated_curvature_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     const double t_hfp4m = MW_S(q_gear) + q[0];
@@ -8367,7 +8429,7 @@ static inline void bevel_generated_curvature_flank_wheel(const double *s, const 
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, bevel/meshing, bevel/pole,
  *   derivation/explicit-angle, derivation/translation, conventions/rotations, conventions/sums,
  *   derivation/rotation, derivation/unit, cylindrical_worm/undercut. */
-static inline void bevel_generated_fillet_pinion(const double *s, const double *q, double *o)
+MW_DEVICE static inline void bevel_generated_fillet_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
     double sin_theta_pinion, cos_theta_pinion; bevel_generated_seldom_sincos(q[1], &sin_theta_pinion, &cos_theta_pinion);
@@ -8646,7 +8708,7 @@ static inline void bevel_generated_fillet_pinion(const double *s, const double *
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, bevel/meshing, bevel/pole,
  *   derivation/explicit-angle, derivation/translation, conventions/rotations, conventions/sums,
  *   derivation/rotation, derivation/unit, cylindrical_worm/undercut, derivation/root, derivation/quotient. */
-static inline void bevel_generated_curvature_fillet_pinion(const double *s, const double *q, double *o)
+MW_DEVICE static inline void bevel_generated_curvature_fillet_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
     const double t_pv390 = MW_FMA(q[0], MW_S(c_6_pinion), MW_S(c_5_pinion));
@@ -9030,7 +9092,7 @@ static inline void bevel_generated_curvature_fillet_pinion(const double *s, cons
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, bevel/meshing, bevel/pole,
  *   derivation/explicit-angle, derivation/translation, conventions/rotations, conventions/sums,
  *   derivation/rotation, derivation/unit, cylindrical_worm/undercut. */
-static inline void bevel_generated_fillet_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void bevel_generated_fillet_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     double sin_theta_gear, cos_theta_gear; bevel_generated_seldom_sincos(q[1], &sin_theta_gear, &cos_theta_gear);
@@ -9308,7 +9370,7 @@ static inline void bevel_generated_fillet_wheel(const double *s, const double *q
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, bevel/meshing, bevel/pole,
  *   derivation/explicit-angle, derivation/translation, conventions/rotations, conventions/sums,
  *   derivation/rotation, derivation/unit, cylindrical_worm/undercut, derivation/root, derivation/quotient. */
-static inline void bevel_generated_curvature_fillet_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void bevel_generated_curvature_fillet_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     const double t_ftd0r = MW_FMA(q[0], MW_S(c_6_gear), MW_S(c_5_gear));
@@ -9688,7 +9750,7 @@ static inline void bevel_generated_curvature_fillet_wheel(const double *s, const
  *    33 axis_point_wheel[3], mm, frame f
  */
 /* Equations: derivation/translation, conventions/rotations, conventions/sums, derivation/rotation. */
-static inline void bevel_generated_placement(const double *s, const double *q, double *o)
+MW_DEVICE static inline void bevel_generated_placement(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -9744,14 +9806,15 @@ static inline void bevel_generated_placement(const double *s, const double *q, d
 #pragma GCC pop_options
 #endif
 
-static const mw_name bevel_generated_unknown_names[] = {
+MW_TABLE mw_name bevel_generated_unknown_names[] = {
     { "phi_cradle_pinion", "rad", "turn of the cradle", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "theta_pinion", "rad", "angle around the cutter's axis", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "phi_cradle_gear", "rad", "turn of the cradle", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "theta_gear", "rad", "angle around the cutter's axis", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "transmission_error", "rad", "gear angle less ratio times pinion angle", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
 };
-static const mw_name bevel_generated_parameter_names[] = {
+#ifndef MW_DEVICE_ONLY
+MW_TABLE mw_name bevel_generated_parameter_names[] = {
     { "s", "", "side of the gear tooth", "flank", "flank", 1.0, -HUGE_VAL, HUGE_VAL },
     { "N_1", "", "teeth of the pinion", "pinion_teeth", "design", 1.0, 0.0, HUGE_VAL },
     { "N_2", "", "teeth of the gear", "gear_teeth", "design", 1.0, 0.0, HUGE_VAL },
@@ -9830,10 +9893,10 @@ static const mw_name bevel_generated_parameter_names[] = {
     { "dSigma", "rad", "error of the shaft angle, above 0 opens it", "shaft_angle_deg", "misalignment", 0.017453292519943295, -HUGE_VAL, HUGE_VAL },
     { "delta_sep", "mm", "separation for contact ellipses", "separation_mm", "contact", 1.0, 0.0, HUGE_VAL },
 };
-static const mw_name bevel_generated_size_names[] = {
+MW_TABLE mw_name bevel_generated_size_names[] = {
     { "ratio", "", "gear turns per pinion turn N1/N2, the inverse of the gear ratio", "ratio", "", 1.0, -HUGE_VAL, HUGE_VAL },
 };
-static const mw_name bevel_generated_output_names[] = {
+MW_TABLE mw_name bevel_generated_output_names[] = {
     { "point_pinion_f", "mm", "", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "normal_pinion_f", "", "", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "point_wheel_f", "mm", "", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
@@ -9907,21 +9970,25 @@ static const char *const bevel_generated_guard_texts[] = {
     "gear.outer_cone_distance_mm: missing from the design: give it a value",
     "gear.face_width_mm: missing from the design: give it a value",
 };
-static const int bevel_generated_pinion_unknowns[] = { 0, 1 };
-static const char *const bevel_generated_pinion_flags[] = { "off_tip", "off_face", "off_root", NULL };
-static const char *const bevel_generated_pinion_events[] = { "tip", "face", "root", NULL };
-static const int bevel_generated_wheel_unknowns[] = { 2, 3 };
-static const char *const bevel_generated_wheel_flags[] = { "off_tip", "off_face", "off_root", NULL };
-static const char *const bevel_generated_wheel_events[] = { "tip", "face", "root", NULL };
-static const mw_body bevel_generated_bodies[] = {
+/* Places in s of what a misalignment changes beside the input angle: all other numbers are those of the design. */
+static const int bevel_generated_POSE[] = { 39, 40, 42, 83, 84, 91, 92, 129, 130, 151, 152, 153, 249, 250, 251, 252 };
+#endif
+MW_TABLE int bevel_generated_pinion_unknowns[] = { 0, 1 };
+MW_TABLE char *const bevel_generated_pinion_flags[] = { "off_tip", "off_face", "off_root", NULL };
+MW_TABLE char *const bevel_generated_pinion_events[] = { "tip", "face", "root", NULL };
+MW_TABLE int bevel_generated_wheel_unknowns[] = { 2, 3 };
+MW_TABLE char *const bevel_generated_wheel_flags[] = { "off_tip", "off_face", "off_root", NULL };
+MW_TABLE char *const bevel_generated_wheel_events[] = { "tip", "face", "root", NULL };
+MW_TABLE mw_body bevel_generated_bodies[] = {
     { "pinion", 2, 0, 12, 21, 27, 28, 3,
       bevel_generated_pinion_unknowns, bevel_generated_pinion_flags, bevel_generated_pinion_events,
-      16, bevel_generated_flank_pinion, bevel_generated_curvature_flank_pinion },
+      16, MW_HOST(bevel_generated_flank_pinion), MW_HOST(bevel_generated_curvature_flank_pinion) },
     { "wheel", 2, 0, 15, 31, 37, 38, 3,
       bevel_generated_wheel_unknowns, bevel_generated_wheel_flags, bevel_generated_wheel_events,
-      16, bevel_generated_flank_wheel, bevel_generated_curvature_flank_wheel },
+      16, MW_HOST(bevel_generated_flank_wheel), MW_HOST(bevel_generated_curvature_flank_wheel) },
 };
 
+#ifndef MW_DEVICE_ONLY
 static const mw_system bevel_generated_systems[] = {
     { "gear_mean_point", 2, bevel_generated_gear_mean_point_guess, bevel_generated_gear_mean_point_scale, bevel_generated_gear_mean_point_eval, NULL, bevel_generated_gear_mean_point_open, bevel_generated_gear_mean_point_fill },
     { "mesh_angle", 1, bevel_generated_mesh_angle_guess, bevel_generated_mesh_angle_scale, bevel_generated_mesh_angle_eval, NULL, bevel_generated_mesh_angle_open, bevel_generated_mesh_angle_fill },
@@ -9934,53 +10001,63 @@ static const mw_region bevel_generated_regions[] = {
 static const mw_function bevel_generated_functions[] = {
     { "placement", 2, 36, bevel_generated_placement },
 };
+#endif
 
 /* The model table by which runtime/c solves this drive; its object (runtime/c/drive) adds lane kernels and tangents. */
-#ifndef MW_KERNELS
+#if !defined(MW_KERNELS) || defined(MW_DEVICE_ONLY)
+#undef MW_KERNELS
 #define MW_KERNELS NULL
 #endif
-static const mw_model bevel_generated_model = {
+MW_TABLE mw_model bevel_generated_model = {
     bevel_generated_ABI, "bevel_generated", "bevel", "bevel or hypoid pair with a generated gear", bevel_generated_SPEC_HASH,
     bevel_generated_NX, bevel_generated_NP, bevel_generated_NS, bevel_generated_NO, bevel_generated_ND, bevel_generated_NSTART, 18,
-    4, 18, 62, 1, bevel_generated_MEMORY, 41,
-    bevel_generated_unknown_names, bevel_generated_parameter_names, bevel_generated_size_names,
-    bevel_generated_output_names, 29, bevel_generated_output_sizes, bevel_generated_guard_texts, bevel_generated_bodies,
-    bevel_generated_derive, bevel_generated_size, bevel_generated_setup, bevel_generated_set_phi, bevel_generated_eval, bevel_generated_step,
-    bevel_generated_NANCHOR, bevel_generated_NEAREST, bevel_generated_anchor, bevel_generated_by_anchor, bevel_generated_along,
-    bevel_generated_guess, bevel_generated_start_scale, bevel_generated_start_eval, bevel_generated_start_solution, bevel_generated_observe, bevel_generated_scale,
-    3, bevel_generated_systems, 2, bevel_generated_regions,
-    1, bevel_generated_functions, MW_KERNELS
+    4, 18, bevel_generated_REFERENCE, bevel_generated_TEETH, bevel_generated_MEMORY, 41,
+    bevel_generated_unknown_names, MW_HOST(bevel_generated_parameter_names), MW_HOST(bevel_generated_size_names),
+    MW_HOST(bevel_generated_output_names), 29, MW_HOST(bevel_generated_output_sizes), MW_HOST(bevel_generated_guard_texts), bevel_generated_bodies,
+    MW_HOST(bevel_generated_derive), MW_HOST(bevel_generated_size), MW_HOST(bevel_generated_setup), MW_HOST(bevel_generated_set_phi), MW_HOST(bevel_generated_eval), MW_HOST(bevel_generated_step),
+    bevel_generated_NANCHOR, bevel_generated_NEAREST, MW_HOST(bevel_generated_anchor), MW_HOST(bevel_generated_by_anchor), MW_HOST(bevel_generated_along),
+    MW_HOST(bevel_generated_guess), MW_HOST(bevel_generated_start_scale), MW_HOST(bevel_generated_start_eval), MW_HOST(bevel_generated_start_solution), MW_HOST(bevel_generated_observe), MW_HOST(bevel_generated_scale),
+    3, MW_HOST(bevel_generated_systems), 2, MW_HOST(bevel_generated_regions),
+    1, MW_HOST(bevel_generated_functions), MW_KERNELS
 };
+
+#ifdef MW_DEVICE_ONLY
+#ifdef MW_CALL
+#error "with MW_DEVICE_ONLY a translation unit holds one drive: include one header"
+#endif
+#define MW_CALL(m, function) bevel_generated_##function
+#endif
 
 /* The solver of the library; commented in runtime/c/solver. */
 
 #ifndef MWI_BASICS_H
 #define MWI_BASICS_H
-#include <math.h>
-#include <stddef.h>
-static inline double mwi_abs(double a)
+#ifndef MW_CALL
+#define MW_CALL(m, function) (m)->function
+#endif
+MW_DEVICE static inline double mwi_abs(double a)
 {
     return a < 0.0 ? -a : a;
 }
-static inline double mwi_larger(double a, double b)
+MW_DEVICE static inline double mwi_larger(double a, double b)
 {
     return a > b ? a : b;
 }
 static const double MWI_TO_INTEGER = 6755399441055744.0;
-static inline void mwi_copy(double *to, const double *from, int n)
+MW_DEVICE static inline void mwi_copy(double *to, const double *from, int n)
 {
     for (int i = 0; i < n; i++) to[i] = from[i];
 }
-static inline void mwi_clear(double *a, int n)
+MW_DEVICE static inline void mwi_clear(double *a, int n)
 {
     for (int i = 0; i < n; i++) a[i] = 0.0;
 }
-static inline int mwi_same_text(const char *a, const char *b)
+MW_DEVICE static inline int mwi_same_text(const char *a, const char *b)
 {
     while (*a && *a == *b) a++, b++;
     return *a == *b;
 }
-static inline mw_info mwi_ended(int status, int guard)
+MW_DEVICE static inline mw_info mwi_ended(int status, int guard)
 {
     mw_info info;
     info.status = status;
@@ -9990,6 +10067,7 @@ static inline mw_info mwi_ended(int status, int guard)
     info.step = info.residual = info.rank_gap = info.pair = info.angle = 0.0;
     return info;
 }
+#ifndef MW_DEVICE_ONLY
 static inline const char *mwi_status_word(int status)
 {
     switch (status) {
@@ -10020,8 +10098,9 @@ static inline int mwi_angle_in_range(double phi)
     return mwi_abs(phi) <= (double)MW_MAX_TURN;
 }
 #endif
+#endif
 
-#ifndef MWI_LINEAR_H
+#if !defined(MWI_LINEAR_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_LINEAR_H
 static inline void mwi_swap(double *a, double *b)
 {
@@ -10130,7 +10209,7 @@ static const double MW_FUSED_TOLERANCE = 1e-8;
 static const double MW_STEP_LIMIT = 0.7;
 #endif
 
-#ifndef MWI_NEWTON_H
+#if !defined(MWI_NEWTON_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_NEWTON_H
 enum { MWI_NEWTON_MAX_ITERATIONS = 60, MWI_NEWTON_MAX_HALVINGS = 5, MWI_NEWTON_PATIENCE = 8 };
 static const double MWI_NEWTON_STEP_DONE = 1e-9;
@@ -10234,7 +10313,7 @@ static inline int mwi_newton_fused(const mw_model *m, const double *s, double *x
 }
 #endif
 
-#ifndef MWI_COMPLETE_H
+#if !defined(MWI_COMPLETE_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_COMPLETE_H
 enum { MWI_PATH_STEPS = 32, MWI_PATH_MAX_HALVINGS = 8 };
 static inline int mwi_solve_system(const mw_model *m, const mw_system *system, double *q, double *y, mw_info *info)
@@ -10285,14 +10364,62 @@ static inline int mwi_complete(const mw_model *m, double *p, double *q, mw_info 
 }
 #endif
 
+#ifndef MWI_REDUCE_H
+#define MWI_REDUCE_H
+static const double MWI_TURN = 6.283185307179586;
+static const double MWI_TURN_MIDDLE = 2.4492935982947064e-16;
+static const double MWI_TURN_LAST = -5.989539619436679e-33;
+static const double MWI_HALVES = 134217729.0;
+MW_DEVICE static inline double mwi_upper_half(double a)
+{
+    const double c = MWI_HALVES * a;
+    return c - (c - a);
+}
+MW_DEVICE static inline double mwi_product(double a, double b, double *rest)
+{
+    const double product = a * b, a1 = mwi_upper_half(a), b1 = mwi_upper_half(b), a2 = a - a1, b2 = b - b1;
+    *rest = ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2;
+    return product;
+}
+MW_DEVICE static inline double mwi_less_pitches(double teeth, double phi, double pair)
+{
+    double turned_rest, pitches_rest, middle_rest;
+    const double turned = mwi_product(phi, teeth, &turned_rest), pitches = mwi_product(pair, MWI_TURN, &pitches_rest);
+    const double middle = mwi_product(pair, MWI_TURN_MIDDLE, &middle_rest);
+    const double above = (turned - pitches) + (turned_rest - pitches_rest);
+    return ((above - middle) - (middle_rest + pair * MWI_TURN_LAST)) / teeth;
+}
+MW_DEVICE static inline double mwi_reduce(double teeth, double reference, double phi, double *pair)
+{
+    const double pitch = MWI_TURN / teeth;
+    double angle = *pair = NAN, beyond = 1.0;
+    if (!(mwi_abs(phi) <= MW_MAX_ANGLE) || !(teeth >= 1.0)) return NAN;
+    *pair = ((phi - reference) / pitch + MWI_TO_INTEGER) - MWI_TO_INTEGER;
+    for (int k = 0; k < 3 && beyond != 0.0; k++) {
+        angle = mwi_less_pitches(teeth, phi, *pair);
+        beyond = angle - reference < -0.5 * pitch ? -1.0 : angle - reference >= 0.5 * pitch ? 1.0 : 0.0;
+        if (k < 2) *pair += beyond;
+    }
+    return angle;
+}
+MW_BY_TABLE static inline double mwi_reference_of(const mw_model *m, const double *p)
+{
+    return m->reference < 0 ? 0.0 : p[m->reference];
+}
+MW_BY_TABLE static inline double mwi_own_angle(const mw_model *m, const double *p, double phi, double *pair)
+{
+    return mwi_reduce(p[m->teeth], mwi_reference_of(m, p), phi, pair);
+}
+#endif
+
 #ifndef MWI_CONTACT_H
 #define MWI_CONTACT_H
 static const double MWI_LINE_SHARE = 1e-10;
-static inline double mwi_dot(const double *a, const double *b)
+MW_DEVICE static inline double mwi_dot(const double *a, const double *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-static inline void mwi_major_direction(const double *K, const double *e, double *major)
+MW_DEVICE static inline void mwi_major_direction(const double *K, const double *e, double *major)
 {
     const double half = 0.5 * (K[0] - K[2]), radius = sqrt(half * half + K[1] * K[1]);
     const double u = half > 0.0 ? -K[1] : half - radius;
@@ -10300,7 +10427,7 @@ static inline void mwi_major_direction(const double *K, const double *e, double 
     const double length = sqrt(u * u + v * v);
     for (int i = 0; i < 3; i++) major[i] = length > 0.0 ? (u * e[i] + v * e[3 + i]) / length : e[i];
 }
-static inline unsigned mwi_flags_of(const mw_model *m, const double *o, double curvature_min, int line)
+MW_BY_TABLE static inline unsigned mwi_flags_of(const mw_model *m, const double *o, double curvature_min, int line)
 {
     unsigned flags = 0, bit = 4;
     for (int b = 0; b < 2; b++)
@@ -10311,12 +10438,12 @@ static inline unsigned mwi_flags_of(const mw_model *m, const double *o, double c
             if (o[m->bodies[b].margin + i] < 0.0) flags |= bit;
     return flags;
 }
-static inline int mwi_impossible(const char *flag)
+MW_DEVICE static inline int mwi_impossible(const char *flag)
 {
     return mwi_same_text(flag, "interference") || mwi_same_text(flag, "spurious_sheet")
            || mwi_same_text(flag, "not_first");
 }
-static inline const char *mwi_flag(const mw_model *m, int bit)
+MW_BY_TABLE static inline const char *mwi_flag(const mw_model *m, int bit)
 {
     if (bit < 0) return NULL;
     if (bit == 0) return "undercut";
@@ -10326,6 +10453,7 @@ static inline const char *mwi_flag(const mw_model *m, int bit)
         if (bit < m->bodies[b].margins) return m->bodies[b].flags[bit];
     return NULL;
 }
+#ifndef MW_DEVICE_ONLY
 static inline int mwi_flags(const mw_model *m, unsigned flags, const char **names)
 {
     int count = 0;
@@ -10337,9 +10465,10 @@ static inline int mwi_flags(const mw_model *m, unsigned flags, const char **name
     }
     return count;
 }
-static inline int mwi_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c)
+#endif
+MW_BY_TABLE static inline int mwi_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c)
 {
-    m->observe(s, x, o);
+    MW_CALL(m, observe)(s, x, o);
     const double *pinion = o, *wheel = o + 6;
     const double *e = o + m->geometry, *gap = e + 12, *curvature = gap + 3;
     c->distance = c->misfit = 0.0;
@@ -10366,28 +10495,28 @@ static inline int mwi_contact_at(const mw_model *m, const double *s, const doubl
 #ifndef MWI_TOUCH_H
 #define MWI_TOUCH_H
 static const double MWI_ROUNDING = 4096.0 * 2.220446049250313e-16, MWI_BELIEVED = 1e-9;
-static inline int mwi_within_bounds(const mw_model *m, const double *x)
+MW_BY_TABLE static inline int mwi_within_bounds(const mw_model *m, const double *x)
 {
     const mw_name *end = m->unknowns + m->nx;
     for (const mw_name *unknown = m->unknowns; unknown < end; unknown++, x++)
         if (!(*x >= unknown->lower && *x <= unknown->upper)) return 0;
     return 1;
 }
-static inline double mwi_extent(const double *a)
+MW_DEVICE static inline double mwi_extent(const double *a)
 {
     return mwi_abs(a[0]) + mwi_abs(a[1]) + mwi_abs(a[2]);
 }
-static inline double mwi_terms(const mw_body *body, const double *o, const double *place, double angle, const double *x)
+MW_DEVICE static inline double mwi_terms(const mw_body *body, const double *o, const double *place, double angle, const double *x)
 {
     double size = (1.0 + mwi_abs(angle)) * mwi_extent(place);
     for (int i = 0; i < body->parameters; i++) size += mwi_abs(x[body->unknowns[i]]) * mwi_extent(o + body->at + 3 * i);
     return size;
 }
-static inline int mwi_is_rounding(double gap, double size, double unit)
+MW_DEVICE static inline int mwi_is_rounding(double gap, double size, double unit)
 {
     return gap <= MWI_ROUNDING * size && gap <= MWI_BELIEVED * unit;
 }
-static inline int mwi_touch(const mw_model *m, const double *x, const double *o)
+MW_BY_TABLE static inline int mwi_touch(const mw_model *m, const double *x, const double *o)
 {
     double apart[3], sum[3];
     const double *pinion = o, *wheel = o + 6, *forms = o + m->geometry + 6;
@@ -10405,9 +10534,104 @@ static inline int mwi_touch(const mw_model *m, const double *x, const double *o)
 }
 #endif
 
-#ifndef MWI_REFINE_H
-#define MWI_REFINE_H
+#ifndef MWI_WARM_H
+#define MWI_WARM_H
 static const double MWI_FUSED_TOLERANCE = 1e-9;
+static const double MWI_BRANCH_WIDTH = 0.25;
+static const double MWI_BESIDE = 1e-5;
+enum { MWI_STRIDE_STEPS = 6 };
+static const double MWI_CONTRACTION = 0.1;
+static const double MWI_GRID = 1e-8;
+static const double MWI_NO_FURTHER = 1e-7;
+static const double MWI_WARM = 0.25;
+enum { MWI_REFERENCE_KEPT, MWI_LAST_KEPT, MWI_BEND_KEPT, MWI_KEPT };
+MW_BY_TABLE static inline int mwi_has_memory(const mw_model *m)
+{
+    return m->memory >= 0 && m->ns - m->np - m->memory >= MWI_KEPT + 2 * m->nx;
+}
+MW_BY_TABLE static inline int mwi_near(const mw_model *m, const double *s, const double *a, const double *b, double sizes)
+{
+    double scale[MW_MAX_UNKNOWNS];
+    MW_CALL(m, scale)(s, scale);
+    for (int i = 0; i < m->nx; i++)
+        if (!(mwi_abs(a[i] - b[i]) <= sizes * scale[i])) return 0;
+    return 1;
+}
+MW_DEVICE static inline int mwi_bend_of(const mw_contact *c)
+{
+    return c->line ? 0 : c->curvature_min * c->curvature_max > 0.0 ? 1 : -1;
+}
+typedef enum mwi_worth { MWI_IMPOSSIBLE, MWI_BEYOND_LIMITS, MWI_ON_BOTH_FLANKS, MWI_OF_A_LINE } mwi_worth;
+MW_BY_TABLE static inline mwi_worth mwi_worth_in(const mw_model *m, const mw_contact *c)
+{
+    const char *flag;
+    if (c->line) return MWI_OF_A_LINE;
+    if (!(c->curvature_min > 0.0)) return MWI_IMPOSSIBLE;
+    for (int bit = 0; c->flags >> bit && (flag = mwi_flag(m, bit)) != NULL; bit++)
+        if ((c->flags >> bit & 1u) && mwi_impossible(flag)) return MWI_IMPOSSIBLE;
+    return c->flags ? MWI_BEYOND_LIMITS : MWI_ON_BOTH_FLANKS;
+}
+MW_BY_TABLE static inline void mwi_along_tangent(const mw_model *m, double *s, double phi, const double *x, double to, double *predicted)
+{
+    mwi_copy(predicted, x, m->nx);
+    MW_CALL(m, set_phi)(s, phi + MWI_BESIDE);
+    MW_CALL(m, step)(s, predicted);
+    for (int i = 0; i < m->nx; i++) predicted[i] = x[i] + (predicted[i] - x[i]) * ((to - phi) / MWI_BESIDE);
+}
+MW_BY_TABLE static inline int mwi_contracted(const mw_model *m, const double *s, double *x, mw_info *info)
+{
+    double longest = MWI_BRANCH_WIDTH;
+    *info = mwi_ended(MW_CONVERGED, 0);
+    for (info->iterations = 1; info->iterations <= MWI_STRIDE_STEPS; info->iterations++) {
+        info->step = MW_CALL(m, step)(s, x);
+        if (info->step < MWI_FUSED_TOLERANCE) return mwi_within_bounds(m, x);
+        if (!(info->step <= longest)) return 0;
+        longest = MWI_CONTRACTION * info->step;
+    }
+    return 0;
+}
+MW_BY_TABLE static inline int mwi_is_of(const mw_model *m, const double *s, int bend, const double *x)
+{
+    double o[MW_MAX_OBSERVATION];
+    mw_contact c;
+    mwi_contact_at(m, s, x, o, &c);
+    return mwi_bend_of(&c) == bend && mwi_touch(m, x, o) >= 0 && mwi_worth_in(m, &c) != MWI_IMPOSSIBLE;
+}
+MW_BY_TABLE static inline void mwi_settle(const mw_model *m, const double *s, double *x)
+{
+    double at[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
+    MW_CALL(m, scale)(s, scale);
+    for (int i = 0; i < m->nx; i++) {
+        const double much = MWI_TO_INTEGER * (MWI_GRID * scale[i]);
+        at[i] = (x[i] + much) - much;
+    }
+    MW_CALL(m, step)(s, at);
+    if (MW_CALL(m, step)(s, at) < MWI_FUSED_TOLERANCE && mwi_near(m, s, at, x, MWI_NO_FURTHER)) mwi_copy(x, at, m->nx);
+}
+MW_BY_TABLE static inline int mwi_stride(const mw_model *m, double *s, double phi0, const double *x0, int bend, double phi, double *x,
+                                         mw_info *info)
+{
+    mwi_along_tangent(m, s, phi0, x0, phi, x);
+    MW_CALL(m, set_phi)(s, phi);
+    return mwi_contracted(m, s, x, info) && mwi_is_of(m, s, bend, x);
+}
+MW_BY_TABLE static inline int mwi_go_on(const mw_model *m, double *s, double *kept, double phi, double *x, mw_info *info)
+{
+    double *last = kept + MWI_KEPT + m->nx, at[MW_MAX_UNKNOWNS];
+    if (!(mwi_abs(phi - kept[MWI_LAST_KEPT]) <= MWI_WARM)) return 0;
+    for (int i = 0; i < m->nx; i++)
+        if (!(x[i] == last[i])) return 0;
+    if (!mwi_stride(m, s, kept[MWI_LAST_KEPT], x, (int)kept[MWI_BEND_KEPT], phi, at, info)) return 0;
+    mwi_settle(m, s, at);
+    kept[MWI_LAST_KEPT] = phi;
+    mwi_copy(last, at, m->nx);
+    mwi_copy(x, at, m->nx);
+    return 1;
+}
+#endif
+
+#if !defined(MWI_REFINE_H) && !defined(MW_DEVICE_ONLY)
+#define MWI_REFINE_H
 static inline int mwi_judge(const mw_model *m, const double *s, const double *x, mw_info *info)
 {
     double o[MW_MAX_OBSERVATION];
@@ -10435,7 +10659,7 @@ static inline int mwi_refine(const mw_model *m, const double *s, double *x, mw_i
 }
 #endif
 
-#ifndef MWI_ARCLENGTH_H
+#if !defined(MWI_ARCLENGTH_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_ARCLENGTH_H
 enum { MWI_ARC_N = MW_MAX_UNKNOWNS + 1, MWI_ARC_MAX_CORRECTIONS = 15, MWI_ARC_MAX_SPLITS = 10 };
 static const double MWI_ARC_DONE = 1e-12, MWI_ARC_ENOUGH = 1e-8;
@@ -10541,10 +10765,10 @@ static inline size_t mwi_arclength(const mw_model *m, double *s, double phi0, co
 }
 #endif
 
-#ifndef MWI_BRANCH_H
+#if !defined(MWI_BRANCH_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_BRANCH_H
 enum { MWI_MAX_SPLITS = 12, MWI_ARC_STEPS = 32, MWI_ARC_PARTS = 16 };
-static const double MWI_STRIDE = 0.5, MWI_BRANCH_WIDTH = 0.25;
+static const double MWI_STRIDE = 0.5;
 static const int MWI_USUAL_ITERATIONS = 4;
 static const double MWI_ARC_STEP = 0.1;
 static const double MWI_NUDGE = 1e-3;
@@ -10592,18 +10816,6 @@ static inline void mwi_predict(const mwi_history *h, double phi, int n, double *
         x[j] = 0.0;
         for (int i = 0; i < h->count; i++) x[j] += weight[i] * h->x[i][j];
     }
-}
-static inline int mwi_near(const mw_model *m, const double *s, const double *a, const double *b, double sizes)
-{
-    double scale[MW_MAX_UNKNOWNS];
-    m->scale(s, scale);
-    for (int i = 0; i < m->nx; i++)
-        if (!(mwi_abs(a[i] - b[i]) <= sizes * scale[i])) return 0;
-    return 1;
-}
-static inline int mwi_bend_of(const mw_contact *c)
-{
-    return c->line ? 0 : c->curvature_min * c->curvature_max > 0.0 ? 1 : -1;
 }
 static inline int mwi_bend(const mw_model *m, const double *s, const double *x)
 {
@@ -10723,7 +10935,7 @@ static inline int mwi_walk(const mw_model *m, const mwi_history *h, double phi, 
 }
 #endif
 
-#ifndef MWI_START_H
+#if !defined(MWI_START_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_START_H
 enum { MWI_MAX_ATTEMPTS = 100 };
 static const double MWI_SMALLEST_STEP = 1e-8, MWI_SMALLEST_LOOK = 1.0 / 64.0;
@@ -10810,7 +11022,7 @@ static inline int mwi_start(const mw_model *m, const double *p, double phi, doub
 }
 #endif
 
-#ifndef MWI_SEARCH_H
+#if !defined(MWI_SEARCH_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_SEARCH_H
 enum { MWI_SEARCH_MAX_TOUCH = 20, MWI_SEARCH_MAX_RIDGE = 12, MWI_SEARCH_SECTIONS = 24 };
 static const double MWI_SEARCH_ALONG[] = { 0.0, -0.8, 0.8, -1.6, 1.6, -2.4 };
@@ -10820,16 +11032,6 @@ static const double MWI_SEARCH_REACH_ALONG = 1.5 * 2.4, MWI_SEARCH_REACH_ACROSS 
 static const double MWI_SEARCH_SHORT = 0.7, MWI_SEARCH_CLOSE = 1e-9, MWI_SEARCH_FAR = 1e6, MWI_SEARCH_RANK = 1e-12;
 static const double MWI_SEARCH_RIDGE_DONE = 1e-6, MWI_SEARCH_RIDGE_NUDGE = 1e-3, MWI_SEARCH_RIDGE_STEP = 0.25;
 static const double MWI_SEARCH_SAME_ANGLE = 1e-11;
-typedef enum mwi_worth { MWI_IMPOSSIBLE, MWI_BEYOND_LIMITS, MWI_ON_BOTH_FLANKS, MWI_OF_A_LINE } mwi_worth;
-static inline mwi_worth mwi_worth_in(const mw_model *m, const mw_contact *c)
-{
-    const char *flag;
-    if (c->line) return MWI_OF_A_LINE;
-    if (!(c->curvature_min > 0.0)) return MWI_IMPOSSIBLE;
-    for (int bit = 0; c->flags >> bit && (flag = mwi_flag(m, bit)) != NULL; bit++)
-        if ((c->flags >> bit & 1u) && mwi_impossible(flag)) return MWI_IMPOSSIBLE;
-    return c->flags ? MWI_BEYOND_LIMITS : MWI_ON_BOTH_FLANKS;
-}
 static inline mwi_worth mwi_worth_of(const mw_model *m, const double *s, const double *x)
 {
     double o[MW_MAX_OBSERVATION];
@@ -10954,18 +11156,14 @@ static inline int mwi_search(const mw_model *m, const double *s, double *x, mw_i
 }
 #endif
 
-#ifndef MWI_CHOICE_H
+#if !defined(MWI_CHOICE_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_CHOICE_H
 enum { MWI_DOUBLINGS = 10 };
 static const double MWI_FIRST = 1.0 / 64.0;
 static const double MWI_STATION = 0.25;
 static const double MWI_FAR = 1.0;
 static const double MWI_HALF_A_TURN = 3.141592653589793;
-static const double MWI_BESIDE = 1e-5;
-enum { MWI_STRIDE_STEPS = 6, MWI_MAX_STRIDES = 4 };
-static const double MWI_CONTRACTION = 0.1;
-static const double MWI_GRID = 1e-8;
-static const double MWI_NO_FURTHER = 1e-7;
+enum { MWI_MAX_STRIDES = 4 };
 typedef struct mwi_pair {
     const mw_model *m;
     const double *p;
@@ -10978,10 +11176,6 @@ static inline void mwi_begin_walk(mwi_pair *t)
 {
     t->station = t->ended = 0;
     t->walked = t->reference;
-}
-static inline double mwi_reference_of(const mw_model *m, const double *p)
-{
-    return m->reference < 0 ? 0.0 : p[m->reference];
 }
 static inline double mwi_reference_angle(const mwi_pair *t)
 {
@@ -11069,50 +11263,6 @@ static inline int mwi_by_walk(mwi_pair *t, double phi, double *x, mw_info *info)
     mwi_search(t->m, t->s, x, info);
     return 0;
 }
-static inline void mwi_along_tangent(const mw_model *m, double *s, double phi, const double *x, double to, double *predicted)
-{
-    mwi_copy(predicted, x, m->nx);
-    m->set_phi(s, phi + MWI_BESIDE);
-    m->step(s, predicted);
-    for (int i = 0; i < m->nx; i++) predicted[i] = x[i] + (predicted[i] - x[i]) * ((to - phi) / MWI_BESIDE);
-}
-static inline int mwi_contracted(const mw_model *m, const double *s, double *x, mw_info *info)
-{
-    double longest = MWI_BRANCH_WIDTH;
-    *info = mwi_ended(MW_CONVERGED, 0);
-    for (info->iterations = 1; info->iterations <= MWI_STRIDE_STEPS; info->iterations++) {
-        info->step = m->step(s, x);
-        if (info->step < MWI_FUSED_TOLERANCE) return mwi_within_bounds(m, x);
-        if (!(info->step <= longest)) return 0;
-        longest = MWI_CONTRACTION * info->step;
-    }
-    return 0;
-}
-static inline int mwi_is_of(const mw_model *m, const double *s, int bend, const double *x)
-{
-    double o[MW_MAX_OBSERVATION];
-    mw_contact c;
-    mwi_contact_at(m, s, x, o, &c);
-    return mwi_bend_of(&c) == bend && mwi_touch(m, x, o) >= 0 && mwi_worth_in(m, &c) != MWI_IMPOSSIBLE;
-}
-static inline void mwi_settle(const mw_model *m, const double *s, double *x)
-{
-    double at[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
-    m->scale(s, scale);
-    for (int i = 0; i < m->nx; i++) {
-        const double much = MWI_TO_INTEGER * (MWI_GRID * scale[i]);
-        at[i] = (x[i] + much) - much;
-    }
-    m->step(s, at);
-    if (m->step(s, at) < MWI_FUSED_TOLERANCE && mwi_near(m, s, at, x, MWI_NO_FURTHER)) mwi_copy(x, at, m->nx);
-}
-static inline int mwi_stride(const mw_model *m, double *s, double phi0, const double *x0, int bend, double phi, double *x,
-                             mw_info *info)
-{
-    mwi_along_tangent(m, s, phi0, x0, phi, x);
-    m->set_phi(s, phi);
-    return mwi_contracted(m, s, x, info) && mwi_is_of(m, s, bend, x);
-}
 static inline int mwi_strode(mwi_pair *t, double phi, double *x, mw_info *info)
 {
     const double first = t->reference.phi[0];
@@ -11186,54 +11336,8 @@ static inline int mwi_solve(const mw_model *m, const double *p, double phi, doub
 }
 #endif
 
-#ifndef MWI_REDUCE_H
-#define MWI_REDUCE_H
-static const double MWI_TURN = 6.283185307179586;
-static const double MWI_TURN_MIDDLE = 2.4492935982947064e-16;
-static const double MWI_TURN_LAST = -5.989539619436679e-33;
-static const double MWI_HALVES = 134217729.0;
-static inline double mwi_upper_half(double a)
-{
-    const double c = MWI_HALVES * a;
-    return c - (c - a);
-}
-static inline double mwi_product(double a, double b, double *rest)
-{
-    const double product = a * b, a1 = mwi_upper_half(a), b1 = mwi_upper_half(b), a2 = a - a1, b2 = b - b1;
-    *rest = ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2;
-    return product;
-}
-static inline double mwi_less_pitches(double teeth, double phi, double pair)
-{
-    double turned_rest, pitches_rest, middle_rest;
-    const double turned = mwi_product(phi, teeth, &turned_rest), pitches = mwi_product(pair, MWI_TURN, &pitches_rest);
-    const double middle = mwi_product(pair, MWI_TURN_MIDDLE, &middle_rest);
-    const double above = (turned - pitches) + (turned_rest - pitches_rest);
-    return ((above - middle) - (middle_rest + pair * MWI_TURN_LAST)) / teeth;
-}
-static inline double mwi_reduce(double teeth, double reference, double phi, double *pair)
-{
-    const double pitch = MWI_TURN / teeth;
-    double angle = *pair = NAN, beyond = 1.0;
-    if (!(mwi_abs(phi) <= MW_MAX_ANGLE) || !(teeth >= 1.0)) return NAN;
-    *pair = ((phi - reference) / pitch + MWI_TO_INTEGER) - MWI_TO_INTEGER;
-    for (int k = 0; k < 3 && beyond != 0.0; k++) {
-        angle = mwi_less_pitches(teeth, phi, *pair);
-        beyond = angle - reference < -0.5 * pitch ? -1.0 : angle - reference >= 0.5 * pitch ? 1.0 : 0.0;
-        if (k < 2) *pair += beyond;
-    }
-    return angle;
-}
-#endif
-
-#ifndef MWI_FOLLOW_H
-#define MWI_FOLLOW_H
-static const double MWI_WARM = 0.25;
-enum { MWI_REFERENCE_KEPT, MWI_LAST_KEPT, MWI_BEND_KEPT, MWI_KEPT };
-static inline int mwi_has_memory(const mw_model *m)
-{
-    return m->memory >= 0 && m->ns - m->np - m->memory >= MWI_KEPT + 2 * m->nx;
-}
+#if !defined(MWI_COLD_H) && !defined(MW_DEVICE_ONLY)
+#define MWI_COLD_H
 static inline int mwi_recall(mwi_pair *t, const double *kept)
 {
     const int nx = t->m->nx;
@@ -11259,40 +11363,37 @@ static inline void mwi_keep(const mwi_pair *t, double *kept, double last, const 
     mwi_copy(kept + MWI_KEPT, t->at_reference, nx);
     mwi_copy(kept + MWI_KEPT + nx, x, nx);
 }
-static inline int mwi_go_on(const mw_model *m, double *s, double *kept, double phi, double *x, mw_info *info)
+static inline void mwi_anew(const mw_model *m, const double *p, double angle, double *s, double *kept, double *work, double *x, mw_info *info)
 {
-    double *last = kept + MWI_KEPT + m->nx, at[MW_MAX_UNKNOWNS];
-    if (!(mwi_abs(phi - kept[MWI_LAST_KEPT]) <= MWI_WARM)) return 0;
-    for (int i = 0; i < m->nx; i++)
-        if (!(x[i] == last[i])) return 0;
-    if (!mwi_stride(m, s, kept[MWI_LAST_KEPT], x, (int)kept[MWI_BEND_KEPT], phi, at, info)) return 0;
-    mwi_settle(m, s, at);
-    kept[MWI_LAST_KEPT] = phi;
-    mwi_copy(last, at, m->nx);
-    mwi_copy(x, at, m->nx);
-    return 1;
+    mwi_pair t;
+    if (!kept) {
+        mwi_solve(m, p, angle, s, work, x, info);
+        return;
+    }
+    t.m = m, t.p = p, t.s = s, t.work = work;
+    *info = mwi_ended(MW_BAD_INPUT, mwi_recall(&t, kept));
+    if (!info->guard) mwi_keep(&t, kept, mwi_solved(&t, angle, x, info) ? angle : NAN, x);
+    m->set_phi(s, angle);
 }
-static inline double mwi_own_angle(const mw_model *m, const double *p, double phi, double *pair)
-{
-    return mwi_reduce(p[m->teeth], mwi_reference_of(m, p), phi, pair);
-}
-static inline int mwi_follow_at(const mw_model *m, const double *p, double angle, double *s, double *work, double *x, mw_info *info)
+#endif
+
+#ifndef MWI_FOLLOW_H
+#define MWI_FOLLOW_H
+MW_BY_TABLE static inline int mwi_follow_at(const mw_model *m, const double *p, double angle, double *s, double *work, double *x, mw_info *info)
 {
     double *const kept = mwi_has_memory(m) ? s + m->memory : NULL;
     const int warm = kept && mwi_go_on(m, s, kept, angle, x, info);
-    if (!kept) mwi_solve(m, p, angle, s, work, x, info);
-    else if (!warm) {
-        mwi_pair t;
-        t.m = m, t.p = p, t.s = s, t.work = work;
-        *info = mwi_ended(MW_BAD_INPUT, mwi_recall(&t, kept));
-        if (!info->guard) mwi_keep(&t, kept, mwi_solved(&t, angle, x, info) ? angle : NAN, x);
-        m->set_phi(s, angle);
-    }
+#ifdef MW_DEVICE_ONLY
+    (void)p, (void)work;
+    if (!warm) *info = mwi_ended(MW_DIVERGED, 0);
+#else
+    if (!warm) mwi_anew(m, p, angle, s, kept, work, x, info);
+#endif
     info->cold = !warm;
     for (int i = 0; i < m->nx && info->status < 0; i++) x[i] = NAN;
     return info->status;
 }
-static inline int mwi_follow(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
+MW_BY_TABLE static inline int mwi_follow(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
 {
     double pair;
     const double angle = mwi_own_angle(m, p, phi, &pair);
@@ -11304,7 +11405,7 @@ static inline int mwi_follow(const mw_model *m, const double *p, double phi, dou
 }
 #endif
 
-#ifndef MWI_CYCLE_H
+#if !defined(MWI_CYCLE_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_CYCLE_H
 enum { MWI_PLACES = 16 };
 enum { MWI_LOOKS_A_PITCH = 16, MWI_LOOKS = 8 * MWI_LOOKS_A_PITCH, MWI_HALVINGS = 60 };
@@ -11535,7 +11636,7 @@ static inline int mwi_cycle(const mw_model *m, double *c, double phi, mw_cycle *
 }
 #endif
 
-#ifndef MWI_SELF_TEST_H
+#if !defined(MWI_SELF_TEST_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_SELF_TEST_H
 enum { MWI_SOUND, MWI_CONTRACTS, MWI_EXCEEDS, MWI_REORDERS, MWI_INVERTS, MWI_FLUSHES, MWI_NO_NAN, MWI_WRONG_ROOT, MWI_WRONG_CONTACT };
 static inline int mwi_unsound(void)
@@ -11561,6 +11662,7 @@ static inline int mwi_finds(const mw_model *m, const double *p, double phi, cons
 }
 #endif
 
+#ifndef MW_DEVICE_ONLY
 /* Complete a design: p[bevel_generated_NP] with open numbers NaN, in mm and rad; info may be NULL. Rules and defaults, then what the
  * design leaves to equations of its own. Returns 0, or 1 + k where bevel_generated_model.systems[k] has no solution. Where the design
  * lacks keys nothing is solved: bevel_generated_setup then names them, and info->guard is what it returns. */
@@ -11586,18 +11688,21 @@ static inline int bevel_generated_solve(double *s, double phi, double *x, mw_inf
     return mwi_solve(&bevel_generated_model, p, phi, s, work, x, record);
 }
 
+#endif
+
 /* The tooth pair whose reference angle is the nearest to input angle phi, rad: *pair is its number, and the result its own
  * angle, phi less so many pitches, exact to the last digit for |phi| up to MW_MAX_ANGLE, beyond which both are not a number.
  * Pair k runs as pair 0 does, k pitches later: at phi its contact is that of pair 0 at this angle, the wheel k of its pitches on. */
-static inline double bevel_generated_reduce(const double *s, double phi, double *pair)
+MW_DEVICE static inline double bevel_generated_reduce(const double *s, double phi, double *pair)
 {
-    return mwi_own_angle(&bevel_generated_model, s + (bevel_generated_NS - bevel_generated_NP), phi, pair);
+    const double *const p = s + (bevel_generated_NS - bevel_generated_NP);
+    return mwi_reduce(p[bevel_generated_TEETH], bevel_generated_REFERENCE < 0 ? 0.0 : p[bevel_generated_REFERENCE], phi, pair);
 }
 
 /* The contact of the pair of bevel_generated_reduce at input angle phi, for a drive that turns on: s from bevel_generated_setup; x in: the result
  * of the call before, which is where this one begins if it is near, or not a number; x out: as of bevel_generated_solve at info->angle,
  * whatever was asked before, and s set up for that angle. info->pair is the pair's number. Returns info->status. */
-static inline int bevel_generated_follow(double *s, double phi, double *x, mw_info *info)
+MW_BY_TABLE static inline int bevel_generated_follow(double *s, double phi, double *x, mw_info *info)
 {
     double p[bevel_generated_NP], work[bevel_generated_NP];
     mw_info unused;
@@ -11606,6 +11711,7 @@ static inline int bevel_generated_follow(double *s, double phi, double *x, mw_in
     return mwi_follow(&bevel_generated_model, p, phi, s, work, x, record);
 }
 
+#ifndef MW_DEVICE_ONLY
 /* Numbers that a drive of many pairs and two flanks keeps. */
 enum { bevel_generated_NC = MWI_SIDES + 2 * (MWI_STATE + bevel_generated_NS + MWI_PLACES * (1 + bevel_generated_NX)) };
 
@@ -11643,14 +11749,17 @@ static inline int bevel_generated_self_test(void)
     return unsound ? unsound : mwi_finds(&bevel_generated_model, bevel_generated_sample, bevel_generated_sample_angle, bevel_generated_sample_contact, s, work, x);
 }
 
+#endif
+
 /* Contact geometry at a solution x of bevel_generated_solve or bevel_generated_follow, s as it left it; o[bevel_generated_NO] as of bevel_generated_observe. bevel_generated_flags has the
  * names of contact->flags. Returns MW_CONVERGED or MW_LINE_CONTACT, or why x is no contact. */
-static inline int bevel_generated_geometry(const double *s, const double *x, double *o, mw_contact *contact)
+MW_BY_TABLE static inline int bevel_generated_geometry(const double *s, const double *x, double *o, mw_contact *contact)
 {
     const int kind = mwi_contact_at(&bevel_generated_model, s, x, o, contact), touch = mwi_touch(&bevel_generated_model, x, o);
     return touch < 0 ? touch : kind;
 }
 
+#ifndef MW_DEVICE_ONLY
 /* Name of a flag by the number of its bit, 0 for the lowest, not by contact->flags, in which several are set at once; NULL where
  * there is none. The margins of a contact are flagged where they are negative. */
 static inline const char *bevel_generated_flag(int bit)
@@ -11674,6 +11783,7 @@ static inline const char *bevel_generated_status_text(int status)
 {
     return mwi_status_text(status);
 }
+#endif
 
 #if defined(__GNUC__) && !defined(__clang__) && defined(__FMA__)
 #pragma GCC pop_options

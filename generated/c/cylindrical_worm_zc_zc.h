@@ -56,15 +56,75 @@
 #ifndef MESHWRIGHT_CYLINDRICAL_WORM_ZC_ZC_H
 #define MESHWRIGHT_CYLINDRICAL_WORM_ZC_ZC_H
 
+/* Processors beside the host. Each generated header repeats this block, so that it can be used alone.  SPDX-License-Identifier: MIT-0
+ *
+ * MW_DEVICE stands before every function that a device can call: what compilers for one ask for (CUDA, HIP), else nothing; who
+ * defines it before has that. With MW_DEVICE_ONLY a translation unit holds one drive without what no device has: tables of
+ * functions, the walk from start values, words. X_setup, X_set_phi, X_eval, X_step, X_observe, X_along, X_reduce and all else that
+ * is computed in straight lines are there, X_geometry, and X_follow, which answers MW_DIVERGED where it would solve anew. Compile
+ * without contraction (nvcc and NVRTC: --fmad=false; HIP: -ffp-contract=off) for the same bits as on the host. */
+#ifndef MW_DEVICE_H
+#define MW_DEVICE_H
+
+#if defined(__CUDACC_RTC__) || defined(__HIPCC_RTC__)
+/* A compiler at run time has no host and no headers. */
+#ifndef MW_DEVICE_ONLY
+#define MW_DEVICE_ONLY
+#endif
+#ifndef NAN
+#define NAN __builtin_bit_cast(double, 0x7ff8000000000000ull)
+#endif
+#ifndef HUGE_VAL
+#define HUGE_VAL __builtin_bit_cast(double, 0x7ff0000000000000ull)
+#endif
+#ifndef NULL
+#define NULL 0
+#endif
+#else
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
+#endif
+
+#if defined(__CUDACC__) || defined(__HIPCC__)
+#define MW_OF_DEVICES 1
+#else
+#define MW_OF_DEVICES 0
+#endif
+#ifndef MW_DEVICE
+#if MW_OF_DEVICES
+#define MW_DEVICE __host__ __device__
+#else
+#define MW_DEVICE
+#endif
+#endif
+
+/* Before a table that such functions read, before functions that read one, and around what only a host has: its tables are not
+ * a device's. */
+#ifdef MW_DEVICE_ONLY
+#if MW_OF_DEVICES
+#define MW_TABLE static __device__ const
+#else
+#define MW_TABLE static const
+#endif
+#define MW_BY_TABLE MW_DEVICE
+#define MW_HOST(of_host) NULL
+#else
+#define MW_TABLE static const
+#define MW_BY_TABLE
+#define MW_HOST(of_host) of_host
+#endif
+
+#endif
 
 /* The arithmetic that the results rest on: IEEE doubles, every operation rounded by itself. Each generated header repeats this
  * block, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_ARITHMETIC
 #define MW_ARITHMETIC
 
+#ifndef MW_DEVICE_ONLY
 #include <float.h>
+#endif
 
 /* Options that change results are refused where a macro shows them; X_self_test finds the others. Who defines
  * MW_ANY_ARITHMETIC takes what comes. */
@@ -287,6 +347,8 @@ typedef struct mw_cycle {
 #define cylindrical_worm_zc_zc_NANCHOR 33
 #define cylindrical_worm_zc_zc_NEAREST 3.814697265625e-06
 #define cylindrical_worm_zc_zc_OTHER_FLANK 0
+#define cylindrical_worm_zc_zc_TEETH 3
+#define cylindrical_worm_zc_zc_REFERENCE (-1)
 #define cylindrical_worm_zc_zc_ABI 7
 #define cylindrical_worm_zc_zc_SPEC_HASH "f2bacb84ac516bda98c019148b7b470f277073ecd792046a75d562257f4bcc07"
 
@@ -544,7 +606,7 @@ typedef union mw_bits {
 #endif
 
 /* Sine and cosine, relative error below 3.2e-16 for |a| < 1.6e6. */
-MW_INLINE void cylindrical_worm_zc_zc_sincos(double a, double *sine, double *cosine)
+MW_DEVICE MW_INLINE void cylindrical_worm_zc_zc_sincos(double a, double *sine, double *cosine)
 {
     const double magic = 6755399441055744.0; /* 1.5 * 2^52: a sum with it ends in the nearest integer to the rest */
     mw_bits turned, s, c;
@@ -584,7 +646,7 @@ MW_INLINE void cylindrical_worm_zc_zc_sincos(double a, double *sine, double *cos
 
 /* The same of an angle close to at[0], at[1] and at[2] being sine and cosine of that one. The square of the distance joins
  * *away: below 3.814697265625e-06 the series leave less than 1e-19. */
-MW_INLINE void cylindrical_worm_zc_zc_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
+MW_DEVICE MW_INLINE void cylindrical_worm_zc_zc_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
 {
     const double r = a - at[0], z = r * r;
     const double u = MW_FNMA(r * z, MW_FNMA(z, 0.008333333333333333, 0.16666666666666666), r);
@@ -595,13 +657,13 @@ MW_INLINE void cylindrical_worm_zc_zc_near_sincos(double a, double *sine, double
 }
 
 /* Sine and cosine by a call instead of written out in place, for all but the steps that solve for a contact. */
-MW_CALLED void cylindrical_worm_zc_zc_seldom_sincos(double a, double *sine, double *cosine)
+MW_DEVICE MW_CALLED void cylindrical_worm_zc_zc_seldom_sincos(double a, double *sine, double *cosine)
 {
     cylindrical_worm_zc_zc_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
-MW_INLINE double cylindrical_worm_zc_zc_atan2(double y, double x)
+MW_DEVICE MW_INLINE double cylindrical_worm_zc_zc_atan2(double y, double x)
 {
     const double ax = x < 0.0 ? -x : x, ay = y < 0.0 ? -y : y;
     const double large = ax > ay ? ax : ay, small = ax > ay ? ay : ax;
@@ -643,7 +705,7 @@ MW_INLINE double cylindrical_worm_zc_zc_atan2(double y, double x)
 #endif
 
 /* Fill in every open parameter (not a number) that has a default or follows from others. p[cylindrical_worm_zc_zc_NP]. */
-static inline void cylindrical_worm_zc_zc_derive(double *p)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_derive(double *p)
 {
     if (p[0] != p[0]) { /* s */
         p[0] = 1.0;
@@ -774,7 +836,7 @@ static inline void cylindrical_worm_zc_zc_derive(double *p)
 }
 
 /* Derived sizes, for reports. p[cylindrical_worm_zc_zc_NP] complete; d[cylindrical_worm_zc_zc_ND]. */
-static inline void cylindrical_worm_zc_zc_size(const double *p, double *d)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_size(const double *p, double *d)
 {
     double sin_lambda_worm, cos_lambda_worm; cylindrical_worm_zc_zc_seldom_sincos(p[5], &sin_lambda_worm, &cos_lambda_worm);
     const double t_yg7qb = sin_lambda_worm / cos_lambda_worm;
@@ -813,7 +875,7 @@ static inline void cylindrical_worm_zc_zc_size(const double *p, double *d)
 
 /* Of parameters that cylindrical_worm_zc_zc_derive leaves open: the number of the text in cylindrical_worm_zc_zc_guard_texts that names keys which the
  * design lacks; else `otherwise`. */
-static inline int cylindrical_worm_zc_zc_missing(const double *p, int otherwise)
+MW_DEVICE static inline int cylindrical_worm_zc_zc_missing(const double *p, int otherwise)
 {
     if (p[3] != p[3]) return 24;
     if (p[4] != p[4]) return 25;
@@ -829,7 +891,7 @@ static inline int cylindrical_worm_zc_zc_missing(const double *p, int otherwise)
  * cylindrical_worm_zc_zc_guard_texts of what does not hold: of a key that is missing first. */
 /* Equations: derivation/quotient, derivation/tangent, derivation/explicit, derivation/explicit-angle,
  *   derivation/relative, derivation/step-size, derivation/root. */
-static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
+MW_DEVICE static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
 {
     int failed = 0;
     {
@@ -1529,7 +1591,7 @@ static inline int cylindrical_worm_zc_zc_setup(const double *p, double *s)
 }
 
 /* Instant stage: input angle phi, rad. */
-static inline void cylindrical_worm_zc_zc_set_phi(double *s, double phi)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_set_phi(double *s, double phi)
 {
     const double t_ynpr4 = phi * MW_S(ratio);
     const double t_w5m44 = phi * MW_S(w7jzp);
@@ -1545,7 +1607,7 @@ static inline void cylindrical_worm_zc_zc_set_phi(double *s, double phi)
  *   derivation/explicit, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
  *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
  *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles. */
-static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x, double *R, double *J)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t_mwh8r = x[2] * 0.5;
     double sin_mwh8r, cos_mwh8r; cylindrical_worm_zc_zc_sincos(t_mwh8r, &sin_mwh8r, &cos_mwh8r);
@@ -2108,7 +2170,7 @@ static inline void cylindrical_worm_zc_zc_eval(const double *s, const double *x,
  *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
  *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles, derivation/elimination,
  *   derivation/step-size. */
-static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
+MW_DEVICE static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
 {
     const double t_mwh8r = x[2] * 0.5;
     double sin_mwh8r, cos_mwh8r; cylindrical_worm_zc_zc_sincos(t_mwh8r, &sin_mwh8r, &cos_mwh8r);
@@ -2703,7 +2765,7 @@ static inline double cylindrical_worm_zc_zc_step(const double *s, double *x)
  *   derivation/explicit, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
  *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
  *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles. */
-static inline double cylindrical_worm_zc_zc_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
+MW_DEVICE static inline double cylindrical_worm_zc_zc_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
 {
     double away = 0.0;
     (void)at, (void)phi;
@@ -2917,7 +2979,7 @@ static inline double cylindrical_worm_zc_zc_by_anchor(const double *s, const dou
 #endif
 
 /* The angles at phi and x of which cylindrical_worm_zc_zc_by_anchor reads sine and cosine, each with these: at[cylindrical_worm_zc_zc_NANCHOR]. */
-static inline void cylindrical_worm_zc_zc_anchor(const double *s, double phi, const double *x, double *at)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_anchor(const double *s, double phi, const double *x, double *at)
 {
     (void)s, (void)phi, (void)x, (void)at;
     const double t_dbt15 = x[0] * 0.5;
@@ -3055,7 +3117,7 @@ static inline void cylindrical_worm_zc_zc_anchor(const double *s, double phi, co
  *   derivation/explicit, conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal,
  *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
  *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles. */
-static inline void cylindrical_worm_zc_zc_along(const double *s, double phi, const double *x, const double *v, double *d1, double *d2)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_along(const double *s, double phi, const double *x, const double *v, double *d1, double *d2)
 {
     const double t_h1ptd = phi + x[1];
     double sin_h1ptd, cos_h1ptd; cylindrical_worm_zc_zc_seldom_sincos(t_h1ptd, &sin_h1ptd, &cos_h1ptd);
@@ -4011,7 +4073,7 @@ static inline void cylindrical_worm_zc_zc_along(const double *s, double phi, con
 }
 
 /* First guess y[cylindrical_worm_zc_zc_NSTART] of the start system. */
-static inline void cylindrical_worm_zc_zc_guess(const double *s, double *y)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_guess(const double *s, double *y)
 {
     (void)s, (void)y;
     y[0] = 0.0;
@@ -4019,7 +4081,7 @@ static inline void cylindrical_worm_zc_zc_guess(const double *s, double *y)
 }
 
 /* Natural size y[cylindrical_worm_zc_zc_NSTART] of each unknown of the start system. */
-static inline void cylindrical_worm_zc_zc_start_scale(const double *s, double *y)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_start_scale(const double *s, double *y)
 {
     (void)s, (void)y;
     y[0] = MW_S(kfd67);
@@ -4027,7 +4089,7 @@ static inline void cylindrical_worm_zc_zc_start_scale(const double *s, double *y
 }
 
 /* Start system: residual and Jacobian as in cylindrical_worm_zc_zc_eval. */
-static inline void cylindrical_worm_zc_zc_start_eval(const double *s, const double *y, double *R, double *J)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_start_eval(const double *s, const double *y, double *R, double *J)
 {
     (void)s, (void)y, (void)R;
     const double t_dbt15 = y[0] * 0.5;
@@ -4333,7 +4395,7 @@ static inline void cylindrical_worm_zc_zc_start_eval(const double *s, const doub
 }
 
 /* Start values x[cylindrical_worm_zc_zc_NX] from the solved start system. */
-static inline void cylindrical_worm_zc_zc_start_solution(const double *s, const double *y, double *x)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_start_solution(const double *s, const double *y, double *x)
 {
     (void)s, (void)y;
     const double t_mwh8r = y[1] * 0.5;
@@ -4430,7 +4492,7 @@ static inline void cylindrical_worm_zc_zc_start_solution(const double *s, const 
 }
 
 /* Natural size x[cylindrical_worm_zc_zc_NX] of each unknown. */
-static inline void cylindrical_worm_zc_zc_scale(const double *s, double *x)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_scale(const double *s, double *x)
 {
     (void)s;
     x[0] = MW_S(kfd67);
@@ -4485,7 +4547,7 @@ static inline void cylindrical_worm_zc_zc_scale(const double *s, double *x)
  *   cylindrical_worm/sum-angle, cylindrical_worm/explicit, cylindrical_worm/linear,
  *   cylindrical_worm/both-systems, cylindrical_worm/contact, derivation/angles, derivation/unit,
  *   cylindrical_worm/undercut, derivation/root, derivation/quotient. */
-static inline void cylindrical_worm_zc_zc_observe(const double *s, const double *x, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_observe(const double *s, const double *x, double *o)
 {
     const double t_dbt15 = x[0] * 0.5;
     double sin_dbt15, cos_dbt15; cylindrical_worm_zc_zc_seldom_sincos(t_dbt15, &sin_dbt15, &cos_dbt15);
@@ -5300,7 +5362,7 @@ static inline void cylindrical_worm_zc_zc_observe(const double *s, const double 
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
  *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/unit,
  *   cylindrical_worm/undercut, derivation/root. */
-static inline void cylindrical_worm_zc_zc_flank_pinion(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
     const double t_dbt15 = q[0] * 0.5;
@@ -5492,7 +5554,7 @@ static inline void cylindrical_worm_zc_zc_flank_pinion(const double *s, const do
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
  *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, derivation/unit,
  *   cylindrical_worm/undercut, derivation/root, derivation/quotient. */
-static inline void cylindrical_worm_zc_zc_curvature_flank_pinion(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_curvature_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
     const double t_dbt15 = q[0] * 0.5;
@@ -5755,7 +5817,7 @@ static inline void cylindrical_worm_zc_zc_curvature_flank_pinion(const double *s
  *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
  *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, derivation/translation,
  *   derivation/unit, cylindrical_worm/undercut, derivation/root. */
-static inline void cylindrical_worm_zc_zc_flank_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     const double t_mwh8r = q[0] * 0.5;
@@ -6076,7 +6138,7 @@ static inline void cylindrical_worm_zc_zc_flank_wheel(const double *s, const dou
  *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
  *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, derivation/translation,
  *   derivation/unit, cylindrical_worm/undercut, derivation/root, derivation/quotient. */
-static inline void cylindrical_worm_zc_zc_curvature_flank_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_curvature_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     double sin_psi_fixed_hob, cos_psi_fixed_hob; cylindrical_worm_zc_zc_seldom_sincos(q[1], &sin_psi_fixed_hob, &cos_psi_fixed_hob);
@@ -6464,7 +6526,7 @@ static inline void cylindrical_worm_zc_zc_curvature_flank_wheel(const double *s,
  *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
  *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, derivation/translation,
  *   derivation/placement, derivation/unit, cylindrical_worm/undercut, derivation/root, derivation/quotient. */
-static inline void cylindrical_worm_zc_zc_fillet_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_fillet_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     double sin_psi_fixed_hob, cos_psi_fixed_hob; cylindrical_worm_zc_zc_seldom_sincos(q[2], &sin_psi_fixed_hob, &cos_psi_fixed_hob);
@@ -7020,7 +7082,7 @@ static inline void cylindrical_worm_zc_zc_fillet_wheel(const double *s, const do
  *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
  *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, derivation/translation,
  *   derivation/placement, derivation/unit, cylindrical_worm/undercut, derivation/root, derivation/quotient. */
-static inline void cylindrical_worm_zc_zc_curvature_fillet_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_curvature_fillet_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     double sin_psi_fixed_hob, cos_psi_fixed_hob; cylindrical_worm_zc_zc_seldom_sincos(q[2], &sin_psi_fixed_hob, &cos_psi_fixed_hob);
@@ -7486,7 +7548,7 @@ static inline void cylindrical_worm_zc_zc_curvature_fillet_wheel(const double *s
  *    33 axis_point_wheel[3], mm, frame f
  */
 /* Equations: conventions/rotations, conventions/sums, derivation/rotation, derivation/translation. */
-static inline void cylindrical_worm_zc_zc_placement(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_placement(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -7554,7 +7616,7 @@ static inline void cylindrical_worm_zc_zc_placement(const double *s, const doubl
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
  *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/root, derivation/quotient,
  *   derivation/arc. */
-static inline void cylindrical_worm_zc_zc_profile_pinion(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_profile_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -7692,7 +7754,7 @@ static inline void cylindrical_worm_zc_zc_profile_pinion(const double *s, const 
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
  *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/root, derivation/quotient,
  *   derivation/arc. */
-static inline void cylindrical_worm_zc_zc_profile_tool(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_profile_tool(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -7824,7 +7886,7 @@ static inline void cylindrical_worm_zc_zc_profile_tool(const double *s, const do
  *     0 pitch_point, rad, frame worm
  *     1 scale, rad, frame worm
  */
-static inline void cylindrical_worm_zc_zc_profile_range_pinion(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_profile_range_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -7837,7 +7899,7 @@ static inline void cylindrical_worm_zc_zc_profile_range_pinion(const double *s, 
  *     0 pitch_point, rad, frame hob
  *     1 scale, rad, frame hob
  */
-static inline void cylindrical_worm_zc_zc_profile_range_tool(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_profile_range_tool(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -7860,7 +7922,7 @@ static inline void cylindrical_worm_zc_zc_profile_range_tool(const double *s, co
  *   conventions/wheel-axis, cylindrical_worm/meshing, cylindrical_worm/normal, cylindrical_worm/sum-angle,
  *   cylindrical_worm/explicit, cylindrical_worm/linear, cylindrical_worm/both-systems, derivation/translation,
  *   rack-and-pinion/rack-form, derivation/root, derivation/quotient. */
-static inline void cylindrical_worm_zc_zc_generation(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_generation(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -8113,7 +8175,7 @@ static inline void cylindrical_worm_zc_zc_generation(const double *s, const doub
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
  *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/root, derivation/quotient,
  *   derivation/arccosine, derivation/arc. */
-static inline void cylindrical_worm_zc_zc_section(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_section(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -8180,7 +8242,7 @@ static inline void cylindrical_worm_zc_zc_section(const double *s, const double 
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
  *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation,
  *   rack-and-pinion/rack-form, derivation/both-turns, derivation/root, derivation/arc. */
-static inline void cylindrical_worm_zc_zc_tool_point(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_tool_point(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -8271,7 +8333,7 @@ static inline void cylindrical_worm_zc_zc_tool_point(const double *s, const doub
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
  *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/translation, rack-and-pinion/eq-5,
  *   derivation/both-turns, derivation/root, derivation/arc. */
-static inline void cylindrical_worm_zc_zc_second_type(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_second_type(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -8353,7 +8415,7 @@ static inline void cylindrical_worm_zc_zc_second_type(const double *s, const dou
  *    10 direction_2[3], frame gen
  */
 /* Equations: cylindrical_worm/twist, cylindrical_worm/axis, cylindrical_worm/axis-quadratic. */
-static inline void cylindrical_worm_zc_zc_meshing_axes(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_meshing_axes(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -8389,7 +8451,7 @@ static inline void cylindrical_worm_zc_zc_meshing_axes(const double *s, const do
  *    12 oversize, mm
  *    13 same_profile
  */
-static inline void cylindrical_worm_zc_zc_rack_sizes(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_rack_sizes(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -8416,7 +8478,7 @@ static inline void cylindrical_worm_zc_zc_rack_sizes(const double *s, const doub
 /* Equations: derivation/revolved, derivation/invariance, derivation/envelope, derivation/pole, derivation/explicit-angle,
  *   conventions/rotations, conventions/sums, derivation/rotation, derivation/swing, helicoids/helicoid,
  *   helicoids/zc-normal, helicoids/zc-meshing, helicoids/zc-limit, derivation/root. */
-static inline void cylindrical_worm_zc_zc_undercut_place_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_undercut_place_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -8475,7 +8537,7 @@ static inline void cylindrical_worm_zc_zc_undercut_place_wheel(const double *s, 
  *     3 rounding, mm
  *     4 taper
  */
-static inline void cylindrical_worm_zc_zc_solid_pinion(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_solid_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -8494,7 +8556,7 @@ static inline void cylindrical_worm_zc_zc_solid_pinion(const double *s, const do
  *     3 face_first, mm
  *     4 face_last, mm
  */
-static inline void cylindrical_worm_zc_zc_solid_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void cylindrical_worm_zc_zc_solid_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -8509,14 +8571,15 @@ static inline void cylindrical_worm_zc_zc_solid_wheel(const double *s, const dou
 #pragma GCC pop_options
 #endif
 
-static const mw_name cylindrical_worm_zc_zc_unknown_names[] = {
+MW_TABLE mw_name cylindrical_worm_zc_zc_unknown_names[] = {
     { "t_worm", "rad", "angle of the contact point on the grinding wheel", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "psi_worm", "rad", "screw angle of the worm flank", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "t_hob", "rad", "angle of the contact point on the grinding wheel", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "psi_fixed_hob", "rad", "angle of the hob profile in the fixed cutting frame", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "transmission_error", "rad", "wheel angle less ratio times worm angle", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
 };
-static const mw_name cylindrical_worm_zc_zc_parameter_names[] = {
+#ifndef MW_DEVICE_ONLY
+MW_TABLE mw_name cylindrical_worm_zc_zc_parameter_names[] = {
     { "s", "", "groove flank", "flank", "flank", 1.0, -HUGE_VAL, HUGE_VAL },
     { "m_n", "mm", "normal module", "normal_module_mm", "design", 1.0, 0.0, HUGE_VAL },
     { "m_x", "mm", "axial module", "axial_module_mm", "design", 1.0, 0.0, HUGE_VAL },
@@ -8554,7 +8617,7 @@ static const mw_name cylindrical_worm_zc_zc_parameter_names[] = {
     { "delta", "mm", "separation for contact ellipses", "separation_mm", "contact", 1.0, 0.0, HUGE_VAL },
     { "delta_e", "mm", "separation below which a pair counts as touching", "elastic_allowance_mm", "contact", 1.0, 0.0, HUGE_VAL },
 };
-static const mw_name cylindrical_worm_zc_zc_size_names[] = {
+MW_TABLE mw_name cylindrical_worm_zc_zc_size_names[] = {
     { "screw_parameter_worm_mm_per_rad", "mm/rad", "screw parameter of the worm", "screw_parameter_worm_mm_per_rad", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "screw_parameter_hob_mm_per_rad", "mm/rad", "screw parameter of the hob", "screw_parameter_hob_mm_per_rad", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "lead_worm_mm", "mm", "lead of the worm", "lead_worm_mm", "", 1.0, -HUGE_VAL, HUGE_VAL },
@@ -8563,7 +8626,7 @@ static const mw_name cylindrical_worm_zc_zc_size_names[] = {
     { "groove_width_mm", "mm", "normal width of the groove on the pitch cylinder", "groove_width_mm", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "ratio", "", "wheel turns per pinion turn T1/T2, the inverse of the gear ratio", "ratio", "", 1.0, -HUGE_VAL, HUGE_VAL },
 };
-static const mw_name cylindrical_worm_zc_zc_output_names[] = {
+MW_TABLE mw_name cylindrical_worm_zc_zc_output_names[] = {
     { "point_pinion_f", "mm", "", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "normal_pinion_f", "", "", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "point_wheel_f", "mm", "", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
@@ -8630,21 +8693,25 @@ static const char *const cylindrical_worm_zc_zc_guard_texts[] = {
     "normal_module_mm, axial_module_mm: all missing from the design: give one a value",
     "worm_lead_angle_deg, worm_pitch_radius_mm: all missing from the design: give one a value",
 };
-static const int cylindrical_worm_zc_zc_pinion_unknowns[] = { 0, 1 };
-static const char *const cylindrical_worm_zc_zc_pinion_flags[] = { "off_tip", "off_root", "beyond_regression", NULL };
-static const char *const cylindrical_worm_zc_zc_pinion_events[] = { "tip", "root", "regression", NULL };
-static const int cylindrical_worm_zc_zc_wheel_unknowns[] = { 2, 3 };
-static const char *const cylindrical_worm_zc_zc_wheel_flags[] = { "off_tip", "off_tip", "off_face", "off_tool", "spurious_sheet", "beyond_regression", NULL };
-static const char *const cylindrical_worm_zc_zc_wheel_events[] = { "tip", "throat", "face", "tool_end", "spurious_sheet", "regression", NULL };
-static const mw_body cylindrical_worm_zc_zc_bodies[] = {
+/* Places in s of what a misalignment changes beside the input angle: all other numbers are those of the design. */
+static const int cylindrical_worm_zc_zc_POSE[] = { 15, 18, 40, 42, 43, 44, 47, 48, 52, 58, 60, 61, 74, 75, 76, 77, 78, 79, 90, 103, 104, 105, 162, 163, 164, 165 };
+#endif
+MW_TABLE int cylindrical_worm_zc_zc_pinion_unknowns[] = { 0, 1 };
+MW_TABLE char *const cylindrical_worm_zc_zc_pinion_flags[] = { "off_tip", "off_root", "beyond_regression", NULL };
+MW_TABLE char *const cylindrical_worm_zc_zc_pinion_events[] = { "tip", "root", "regression", NULL };
+MW_TABLE int cylindrical_worm_zc_zc_wheel_unknowns[] = { 2, 3 };
+MW_TABLE char *const cylindrical_worm_zc_zc_wheel_flags[] = { "off_tip", "off_tip", "off_face", "off_tool", "spurious_sheet", "beyond_regression", NULL };
+MW_TABLE char *const cylindrical_worm_zc_zc_wheel_events[] = { "tip", "throat", "face", "tool_end", "spurious_sheet", "regression", NULL };
+MW_TABLE mw_body cylindrical_worm_zc_zc_bodies[] = {
     { "pinion", 2, 0, 12, 21, 27, 28, 3,
       cylindrical_worm_zc_zc_pinion_unknowns, cylindrical_worm_zc_zc_pinion_flags, cylindrical_worm_zc_zc_pinion_events,
-      16, cylindrical_worm_zc_zc_flank_pinion, cylindrical_worm_zc_zc_curvature_flank_pinion },
+      16, MW_HOST(cylindrical_worm_zc_zc_flank_pinion), MW_HOST(cylindrical_worm_zc_zc_curvature_flank_pinion) },
     { "wheel", 2, 0, 15, 31, 37, 38, 6,
       cylindrical_worm_zc_zc_wheel_unknowns, cylindrical_worm_zc_zc_wheel_flags, cylindrical_worm_zc_zc_wheel_events,
-      19, cylindrical_worm_zc_zc_flank_wheel, cylindrical_worm_zc_zc_curvature_flank_wheel },
+      19, MW_HOST(cylindrical_worm_zc_zc_flank_wheel), MW_HOST(cylindrical_worm_zc_zc_curvature_flank_wheel) },
 };
 
+#ifndef MW_DEVICE_ONLY
 static const mw_region cylindrical_worm_zc_zc_regions[] = {
     { "wheel", "fillet", 3, 1, 22, cylindrical_worm_zc_zc_fillet_wheel, cylindrical_worm_zc_zc_curvature_fillet_wheel },
 };
@@ -8664,53 +8731,63 @@ static const mw_function cylindrical_worm_zc_zc_functions[] = {
     { "solid_pinion", 0, 5, cylindrical_worm_zc_zc_solid_pinion },
     { "solid_wheel", 0, 5, cylindrical_worm_zc_zc_solid_wheel },
 };
+#endif
 
 /* The model table by which runtime/c solves this drive; its object (runtime/c/drive) adds lane kernels and tangents. */
-#ifndef MW_KERNELS
+#if !defined(MW_KERNELS) || defined(MW_DEVICE_ONLY)
+#undef MW_KERNELS
 #define MW_KERNELS NULL
 #endif
-static const mw_model cylindrical_worm_zc_zc_model = {
+MW_TABLE mw_model cylindrical_worm_zc_zc_model = {
     cylindrical_worm_zc_zc_ABI, "cylindrical_worm_zc_zc", "cylindrical-worm", "ZC worm with a wheel cut by a ZC hob", cylindrical_worm_zc_zc_SPEC_HASH,
     cylindrical_worm_zc_zc_NX, cylindrical_worm_zc_zc_NP, cylindrical_worm_zc_zc_NS, cylindrical_worm_zc_zc_NO, cylindrical_worm_zc_zc_ND, cylindrical_worm_zc_zc_NSTART, 23,
-    4, 18, -1, 3, cylindrical_worm_zc_zc_MEMORY, 44,
-    cylindrical_worm_zc_zc_unknown_names, cylindrical_worm_zc_zc_parameter_names, cylindrical_worm_zc_zc_size_names,
-    cylindrical_worm_zc_zc_output_names, 32, cylindrical_worm_zc_zc_output_sizes, cylindrical_worm_zc_zc_guard_texts, cylindrical_worm_zc_zc_bodies,
-    cylindrical_worm_zc_zc_derive, cylindrical_worm_zc_zc_size, cylindrical_worm_zc_zc_setup, cylindrical_worm_zc_zc_set_phi, cylindrical_worm_zc_zc_eval, cylindrical_worm_zc_zc_step,
-    cylindrical_worm_zc_zc_NANCHOR, cylindrical_worm_zc_zc_NEAREST, cylindrical_worm_zc_zc_anchor, cylindrical_worm_zc_zc_by_anchor, cylindrical_worm_zc_zc_along,
-    cylindrical_worm_zc_zc_guess, cylindrical_worm_zc_zc_start_scale, cylindrical_worm_zc_zc_start_eval, cylindrical_worm_zc_zc_start_solution, cylindrical_worm_zc_zc_observe, cylindrical_worm_zc_zc_scale,
-    0, NULL, 1, cylindrical_worm_zc_zc_regions,
-    14, cylindrical_worm_zc_zc_functions, MW_KERNELS
+    4, 18, cylindrical_worm_zc_zc_REFERENCE, cylindrical_worm_zc_zc_TEETH, cylindrical_worm_zc_zc_MEMORY, 44,
+    cylindrical_worm_zc_zc_unknown_names, MW_HOST(cylindrical_worm_zc_zc_parameter_names), MW_HOST(cylindrical_worm_zc_zc_size_names),
+    MW_HOST(cylindrical_worm_zc_zc_output_names), 32, MW_HOST(cylindrical_worm_zc_zc_output_sizes), MW_HOST(cylindrical_worm_zc_zc_guard_texts), cylindrical_worm_zc_zc_bodies,
+    MW_HOST(cylindrical_worm_zc_zc_derive), MW_HOST(cylindrical_worm_zc_zc_size), MW_HOST(cylindrical_worm_zc_zc_setup), MW_HOST(cylindrical_worm_zc_zc_set_phi), MW_HOST(cylindrical_worm_zc_zc_eval), MW_HOST(cylindrical_worm_zc_zc_step),
+    cylindrical_worm_zc_zc_NANCHOR, cylindrical_worm_zc_zc_NEAREST, MW_HOST(cylindrical_worm_zc_zc_anchor), MW_HOST(cylindrical_worm_zc_zc_by_anchor), MW_HOST(cylindrical_worm_zc_zc_along),
+    MW_HOST(cylindrical_worm_zc_zc_guess), MW_HOST(cylindrical_worm_zc_zc_start_scale), MW_HOST(cylindrical_worm_zc_zc_start_eval), MW_HOST(cylindrical_worm_zc_zc_start_solution), MW_HOST(cylindrical_worm_zc_zc_observe), MW_HOST(cylindrical_worm_zc_zc_scale),
+    0, NULL, 1, MW_HOST(cylindrical_worm_zc_zc_regions),
+    14, MW_HOST(cylindrical_worm_zc_zc_functions), MW_KERNELS
 };
+
+#ifdef MW_DEVICE_ONLY
+#ifdef MW_CALL
+#error "with MW_DEVICE_ONLY a translation unit holds one drive: include one header"
+#endif
+#define MW_CALL(m, function) cylindrical_worm_zc_zc_##function
+#endif
 
 /* The solver of the library; commented in runtime/c/solver. */
 
 #ifndef MWI_BASICS_H
 #define MWI_BASICS_H
-#include <math.h>
-#include <stddef.h>
-static inline double mwi_abs(double a)
+#ifndef MW_CALL
+#define MW_CALL(m, function) (m)->function
+#endif
+MW_DEVICE static inline double mwi_abs(double a)
 {
     return a < 0.0 ? -a : a;
 }
-static inline double mwi_larger(double a, double b)
+MW_DEVICE static inline double mwi_larger(double a, double b)
 {
     return a > b ? a : b;
 }
 static const double MWI_TO_INTEGER = 6755399441055744.0;
-static inline void mwi_copy(double *to, const double *from, int n)
+MW_DEVICE static inline void mwi_copy(double *to, const double *from, int n)
 {
     for (int i = 0; i < n; i++) to[i] = from[i];
 }
-static inline void mwi_clear(double *a, int n)
+MW_DEVICE static inline void mwi_clear(double *a, int n)
 {
     for (int i = 0; i < n; i++) a[i] = 0.0;
 }
-static inline int mwi_same_text(const char *a, const char *b)
+MW_DEVICE static inline int mwi_same_text(const char *a, const char *b)
 {
     while (*a && *a == *b) a++, b++;
     return *a == *b;
 }
-static inline mw_info mwi_ended(int status, int guard)
+MW_DEVICE static inline mw_info mwi_ended(int status, int guard)
 {
     mw_info info;
     info.status = status;
@@ -8720,6 +8797,7 @@ static inline mw_info mwi_ended(int status, int guard)
     info.step = info.residual = info.rank_gap = info.pair = info.angle = 0.0;
     return info;
 }
+#ifndef MW_DEVICE_ONLY
 static inline const char *mwi_status_word(int status)
 {
     switch (status) {
@@ -8750,8 +8828,9 @@ static inline int mwi_angle_in_range(double phi)
     return mwi_abs(phi) <= (double)MW_MAX_TURN;
 }
 #endif
+#endif
 
-#ifndef MWI_LINEAR_H
+#if !defined(MWI_LINEAR_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_LINEAR_H
 static inline void mwi_swap(double *a, double *b)
 {
@@ -8860,7 +8939,7 @@ static const double MW_FUSED_TOLERANCE = 1e-8;
 static const double MW_STEP_LIMIT = 0.7;
 #endif
 
-#ifndef MWI_NEWTON_H
+#if !defined(MWI_NEWTON_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_NEWTON_H
 enum { MWI_NEWTON_MAX_ITERATIONS = 60, MWI_NEWTON_MAX_HALVINGS = 5, MWI_NEWTON_PATIENCE = 8 };
 static const double MWI_NEWTON_STEP_DONE = 1e-9;
@@ -8964,7 +9043,7 @@ static inline int mwi_newton_fused(const mw_model *m, const double *s, double *x
 }
 #endif
 
-#ifndef MWI_COMPLETE_H
+#if !defined(MWI_COMPLETE_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_COMPLETE_H
 enum { MWI_PATH_STEPS = 32, MWI_PATH_MAX_HALVINGS = 8 };
 static inline int mwi_solve_system(const mw_model *m, const mw_system *system, double *q, double *y, mw_info *info)
@@ -9015,14 +9094,62 @@ static inline int mwi_complete(const mw_model *m, double *p, double *q, mw_info 
 }
 #endif
 
+#ifndef MWI_REDUCE_H
+#define MWI_REDUCE_H
+static const double MWI_TURN = 6.283185307179586;
+static const double MWI_TURN_MIDDLE = 2.4492935982947064e-16;
+static const double MWI_TURN_LAST = -5.989539619436679e-33;
+static const double MWI_HALVES = 134217729.0;
+MW_DEVICE static inline double mwi_upper_half(double a)
+{
+    const double c = MWI_HALVES * a;
+    return c - (c - a);
+}
+MW_DEVICE static inline double mwi_product(double a, double b, double *rest)
+{
+    const double product = a * b, a1 = mwi_upper_half(a), b1 = mwi_upper_half(b), a2 = a - a1, b2 = b - b1;
+    *rest = ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2;
+    return product;
+}
+MW_DEVICE static inline double mwi_less_pitches(double teeth, double phi, double pair)
+{
+    double turned_rest, pitches_rest, middle_rest;
+    const double turned = mwi_product(phi, teeth, &turned_rest), pitches = mwi_product(pair, MWI_TURN, &pitches_rest);
+    const double middle = mwi_product(pair, MWI_TURN_MIDDLE, &middle_rest);
+    const double above = (turned - pitches) + (turned_rest - pitches_rest);
+    return ((above - middle) - (middle_rest + pair * MWI_TURN_LAST)) / teeth;
+}
+MW_DEVICE static inline double mwi_reduce(double teeth, double reference, double phi, double *pair)
+{
+    const double pitch = MWI_TURN / teeth;
+    double angle = *pair = NAN, beyond = 1.0;
+    if (!(mwi_abs(phi) <= MW_MAX_ANGLE) || !(teeth >= 1.0)) return NAN;
+    *pair = ((phi - reference) / pitch + MWI_TO_INTEGER) - MWI_TO_INTEGER;
+    for (int k = 0; k < 3 && beyond != 0.0; k++) {
+        angle = mwi_less_pitches(teeth, phi, *pair);
+        beyond = angle - reference < -0.5 * pitch ? -1.0 : angle - reference >= 0.5 * pitch ? 1.0 : 0.0;
+        if (k < 2) *pair += beyond;
+    }
+    return angle;
+}
+MW_BY_TABLE static inline double mwi_reference_of(const mw_model *m, const double *p)
+{
+    return m->reference < 0 ? 0.0 : p[m->reference];
+}
+MW_BY_TABLE static inline double mwi_own_angle(const mw_model *m, const double *p, double phi, double *pair)
+{
+    return mwi_reduce(p[m->teeth], mwi_reference_of(m, p), phi, pair);
+}
+#endif
+
 #ifndef MWI_CONTACT_H
 #define MWI_CONTACT_H
 static const double MWI_LINE_SHARE = 1e-10;
-static inline double mwi_dot(const double *a, const double *b)
+MW_DEVICE static inline double mwi_dot(const double *a, const double *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-static inline void mwi_major_direction(const double *K, const double *e, double *major)
+MW_DEVICE static inline void mwi_major_direction(const double *K, const double *e, double *major)
 {
     const double half = 0.5 * (K[0] - K[2]), radius = sqrt(half * half + K[1] * K[1]);
     const double u = half > 0.0 ? -K[1] : half - radius;
@@ -9030,7 +9157,7 @@ static inline void mwi_major_direction(const double *K, const double *e, double 
     const double length = sqrt(u * u + v * v);
     for (int i = 0; i < 3; i++) major[i] = length > 0.0 ? (u * e[i] + v * e[3 + i]) / length : e[i];
 }
-static inline unsigned mwi_flags_of(const mw_model *m, const double *o, double curvature_min, int line)
+MW_BY_TABLE static inline unsigned mwi_flags_of(const mw_model *m, const double *o, double curvature_min, int line)
 {
     unsigned flags = 0, bit = 4;
     for (int b = 0; b < 2; b++)
@@ -9041,12 +9168,12 @@ static inline unsigned mwi_flags_of(const mw_model *m, const double *o, double c
             if (o[m->bodies[b].margin + i] < 0.0) flags |= bit;
     return flags;
 }
-static inline int mwi_impossible(const char *flag)
+MW_DEVICE static inline int mwi_impossible(const char *flag)
 {
     return mwi_same_text(flag, "interference") || mwi_same_text(flag, "spurious_sheet")
            || mwi_same_text(flag, "not_first");
 }
-static inline const char *mwi_flag(const mw_model *m, int bit)
+MW_BY_TABLE static inline const char *mwi_flag(const mw_model *m, int bit)
 {
     if (bit < 0) return NULL;
     if (bit == 0) return "undercut";
@@ -9056,6 +9183,7 @@ static inline const char *mwi_flag(const mw_model *m, int bit)
         if (bit < m->bodies[b].margins) return m->bodies[b].flags[bit];
     return NULL;
 }
+#ifndef MW_DEVICE_ONLY
 static inline int mwi_flags(const mw_model *m, unsigned flags, const char **names)
 {
     int count = 0;
@@ -9067,9 +9195,10 @@ static inline int mwi_flags(const mw_model *m, unsigned flags, const char **name
     }
     return count;
 }
-static inline int mwi_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c)
+#endif
+MW_BY_TABLE static inline int mwi_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c)
 {
-    m->observe(s, x, o);
+    MW_CALL(m, observe)(s, x, o);
     const double *pinion = o, *wheel = o + 6;
     const double *e = o + m->geometry, *gap = e + 12, *curvature = gap + 3;
     c->distance = c->misfit = 0.0;
@@ -9096,28 +9225,28 @@ static inline int mwi_contact_at(const mw_model *m, const double *s, const doubl
 #ifndef MWI_TOUCH_H
 #define MWI_TOUCH_H
 static const double MWI_ROUNDING = 4096.0 * 2.220446049250313e-16, MWI_BELIEVED = 1e-9;
-static inline int mwi_within_bounds(const mw_model *m, const double *x)
+MW_BY_TABLE static inline int mwi_within_bounds(const mw_model *m, const double *x)
 {
     const mw_name *end = m->unknowns + m->nx;
     for (const mw_name *unknown = m->unknowns; unknown < end; unknown++, x++)
         if (!(*x >= unknown->lower && *x <= unknown->upper)) return 0;
     return 1;
 }
-static inline double mwi_extent(const double *a)
+MW_DEVICE static inline double mwi_extent(const double *a)
 {
     return mwi_abs(a[0]) + mwi_abs(a[1]) + mwi_abs(a[2]);
 }
-static inline double mwi_terms(const mw_body *body, const double *o, const double *place, double angle, const double *x)
+MW_DEVICE static inline double mwi_terms(const mw_body *body, const double *o, const double *place, double angle, const double *x)
 {
     double size = (1.0 + mwi_abs(angle)) * mwi_extent(place);
     for (int i = 0; i < body->parameters; i++) size += mwi_abs(x[body->unknowns[i]]) * mwi_extent(o + body->at + 3 * i);
     return size;
 }
-static inline int mwi_is_rounding(double gap, double size, double unit)
+MW_DEVICE static inline int mwi_is_rounding(double gap, double size, double unit)
 {
     return gap <= MWI_ROUNDING * size && gap <= MWI_BELIEVED * unit;
 }
-static inline int mwi_touch(const mw_model *m, const double *x, const double *o)
+MW_BY_TABLE static inline int mwi_touch(const mw_model *m, const double *x, const double *o)
 {
     double apart[3], sum[3];
     const double *pinion = o, *wheel = o + 6, *forms = o + m->geometry + 6;
@@ -9135,9 +9264,104 @@ static inline int mwi_touch(const mw_model *m, const double *x, const double *o)
 }
 #endif
 
-#ifndef MWI_REFINE_H
-#define MWI_REFINE_H
+#ifndef MWI_WARM_H
+#define MWI_WARM_H
 static const double MWI_FUSED_TOLERANCE = 1e-9;
+static const double MWI_BRANCH_WIDTH = 0.25;
+static const double MWI_BESIDE = 1e-5;
+enum { MWI_STRIDE_STEPS = 6 };
+static const double MWI_CONTRACTION = 0.1;
+static const double MWI_GRID = 1e-8;
+static const double MWI_NO_FURTHER = 1e-7;
+static const double MWI_WARM = 0.25;
+enum { MWI_REFERENCE_KEPT, MWI_LAST_KEPT, MWI_BEND_KEPT, MWI_KEPT };
+MW_BY_TABLE static inline int mwi_has_memory(const mw_model *m)
+{
+    return m->memory >= 0 && m->ns - m->np - m->memory >= MWI_KEPT + 2 * m->nx;
+}
+MW_BY_TABLE static inline int mwi_near(const mw_model *m, const double *s, const double *a, const double *b, double sizes)
+{
+    double scale[MW_MAX_UNKNOWNS];
+    MW_CALL(m, scale)(s, scale);
+    for (int i = 0; i < m->nx; i++)
+        if (!(mwi_abs(a[i] - b[i]) <= sizes * scale[i])) return 0;
+    return 1;
+}
+MW_DEVICE static inline int mwi_bend_of(const mw_contact *c)
+{
+    return c->line ? 0 : c->curvature_min * c->curvature_max > 0.0 ? 1 : -1;
+}
+typedef enum mwi_worth { MWI_IMPOSSIBLE, MWI_BEYOND_LIMITS, MWI_ON_BOTH_FLANKS, MWI_OF_A_LINE } mwi_worth;
+MW_BY_TABLE static inline mwi_worth mwi_worth_in(const mw_model *m, const mw_contact *c)
+{
+    const char *flag;
+    if (c->line) return MWI_OF_A_LINE;
+    if (!(c->curvature_min > 0.0)) return MWI_IMPOSSIBLE;
+    for (int bit = 0; c->flags >> bit && (flag = mwi_flag(m, bit)) != NULL; bit++)
+        if ((c->flags >> bit & 1u) && mwi_impossible(flag)) return MWI_IMPOSSIBLE;
+    return c->flags ? MWI_BEYOND_LIMITS : MWI_ON_BOTH_FLANKS;
+}
+MW_BY_TABLE static inline void mwi_along_tangent(const mw_model *m, double *s, double phi, const double *x, double to, double *predicted)
+{
+    mwi_copy(predicted, x, m->nx);
+    MW_CALL(m, set_phi)(s, phi + MWI_BESIDE);
+    MW_CALL(m, step)(s, predicted);
+    for (int i = 0; i < m->nx; i++) predicted[i] = x[i] + (predicted[i] - x[i]) * ((to - phi) / MWI_BESIDE);
+}
+MW_BY_TABLE static inline int mwi_contracted(const mw_model *m, const double *s, double *x, mw_info *info)
+{
+    double longest = MWI_BRANCH_WIDTH;
+    *info = mwi_ended(MW_CONVERGED, 0);
+    for (info->iterations = 1; info->iterations <= MWI_STRIDE_STEPS; info->iterations++) {
+        info->step = MW_CALL(m, step)(s, x);
+        if (info->step < MWI_FUSED_TOLERANCE) return mwi_within_bounds(m, x);
+        if (!(info->step <= longest)) return 0;
+        longest = MWI_CONTRACTION * info->step;
+    }
+    return 0;
+}
+MW_BY_TABLE static inline int mwi_is_of(const mw_model *m, const double *s, int bend, const double *x)
+{
+    double o[MW_MAX_OBSERVATION];
+    mw_contact c;
+    mwi_contact_at(m, s, x, o, &c);
+    return mwi_bend_of(&c) == bend && mwi_touch(m, x, o) >= 0 && mwi_worth_in(m, &c) != MWI_IMPOSSIBLE;
+}
+MW_BY_TABLE static inline void mwi_settle(const mw_model *m, const double *s, double *x)
+{
+    double at[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
+    MW_CALL(m, scale)(s, scale);
+    for (int i = 0; i < m->nx; i++) {
+        const double much = MWI_TO_INTEGER * (MWI_GRID * scale[i]);
+        at[i] = (x[i] + much) - much;
+    }
+    MW_CALL(m, step)(s, at);
+    if (MW_CALL(m, step)(s, at) < MWI_FUSED_TOLERANCE && mwi_near(m, s, at, x, MWI_NO_FURTHER)) mwi_copy(x, at, m->nx);
+}
+MW_BY_TABLE static inline int mwi_stride(const mw_model *m, double *s, double phi0, const double *x0, int bend, double phi, double *x,
+                                         mw_info *info)
+{
+    mwi_along_tangent(m, s, phi0, x0, phi, x);
+    MW_CALL(m, set_phi)(s, phi);
+    return mwi_contracted(m, s, x, info) && mwi_is_of(m, s, bend, x);
+}
+MW_BY_TABLE static inline int mwi_go_on(const mw_model *m, double *s, double *kept, double phi, double *x, mw_info *info)
+{
+    double *last = kept + MWI_KEPT + m->nx, at[MW_MAX_UNKNOWNS];
+    if (!(mwi_abs(phi - kept[MWI_LAST_KEPT]) <= MWI_WARM)) return 0;
+    for (int i = 0; i < m->nx; i++)
+        if (!(x[i] == last[i])) return 0;
+    if (!mwi_stride(m, s, kept[MWI_LAST_KEPT], x, (int)kept[MWI_BEND_KEPT], phi, at, info)) return 0;
+    mwi_settle(m, s, at);
+    kept[MWI_LAST_KEPT] = phi;
+    mwi_copy(last, at, m->nx);
+    mwi_copy(x, at, m->nx);
+    return 1;
+}
+#endif
+
+#if !defined(MWI_REFINE_H) && !defined(MW_DEVICE_ONLY)
+#define MWI_REFINE_H
 static inline int mwi_judge(const mw_model *m, const double *s, const double *x, mw_info *info)
 {
     double o[MW_MAX_OBSERVATION];
@@ -9165,7 +9389,7 @@ static inline int mwi_refine(const mw_model *m, const double *s, double *x, mw_i
 }
 #endif
 
-#ifndef MWI_ARCLENGTH_H
+#if !defined(MWI_ARCLENGTH_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_ARCLENGTH_H
 enum { MWI_ARC_N = MW_MAX_UNKNOWNS + 1, MWI_ARC_MAX_CORRECTIONS = 15, MWI_ARC_MAX_SPLITS = 10 };
 static const double MWI_ARC_DONE = 1e-12, MWI_ARC_ENOUGH = 1e-8;
@@ -9271,10 +9495,10 @@ static inline size_t mwi_arclength(const mw_model *m, double *s, double phi0, co
 }
 #endif
 
-#ifndef MWI_BRANCH_H
+#if !defined(MWI_BRANCH_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_BRANCH_H
 enum { MWI_MAX_SPLITS = 12, MWI_ARC_STEPS = 32, MWI_ARC_PARTS = 16 };
-static const double MWI_STRIDE = 0.5, MWI_BRANCH_WIDTH = 0.25;
+static const double MWI_STRIDE = 0.5;
 static const int MWI_USUAL_ITERATIONS = 4;
 static const double MWI_ARC_STEP = 0.1;
 static const double MWI_NUDGE = 1e-3;
@@ -9322,18 +9546,6 @@ static inline void mwi_predict(const mwi_history *h, double phi, int n, double *
         x[j] = 0.0;
         for (int i = 0; i < h->count; i++) x[j] += weight[i] * h->x[i][j];
     }
-}
-static inline int mwi_near(const mw_model *m, const double *s, const double *a, const double *b, double sizes)
-{
-    double scale[MW_MAX_UNKNOWNS];
-    m->scale(s, scale);
-    for (int i = 0; i < m->nx; i++)
-        if (!(mwi_abs(a[i] - b[i]) <= sizes * scale[i])) return 0;
-    return 1;
-}
-static inline int mwi_bend_of(const mw_contact *c)
-{
-    return c->line ? 0 : c->curvature_min * c->curvature_max > 0.0 ? 1 : -1;
 }
 static inline int mwi_bend(const mw_model *m, const double *s, const double *x)
 {
@@ -9453,7 +9665,7 @@ static inline int mwi_walk(const mw_model *m, const mwi_history *h, double phi, 
 }
 #endif
 
-#ifndef MWI_START_H
+#if !defined(MWI_START_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_START_H
 enum { MWI_MAX_ATTEMPTS = 100 };
 static const double MWI_SMALLEST_STEP = 1e-8, MWI_SMALLEST_LOOK = 1.0 / 64.0;
@@ -9540,7 +9752,7 @@ static inline int mwi_start(const mw_model *m, const double *p, double phi, doub
 }
 #endif
 
-#ifndef MWI_SEARCH_H
+#if !defined(MWI_SEARCH_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_SEARCH_H
 enum { MWI_SEARCH_MAX_TOUCH = 20, MWI_SEARCH_MAX_RIDGE = 12, MWI_SEARCH_SECTIONS = 24 };
 static const double MWI_SEARCH_ALONG[] = { 0.0, -0.8, 0.8, -1.6, 1.6, -2.4 };
@@ -9550,16 +9762,6 @@ static const double MWI_SEARCH_REACH_ALONG = 1.5 * 2.4, MWI_SEARCH_REACH_ACROSS 
 static const double MWI_SEARCH_SHORT = 0.7, MWI_SEARCH_CLOSE = 1e-9, MWI_SEARCH_FAR = 1e6, MWI_SEARCH_RANK = 1e-12;
 static const double MWI_SEARCH_RIDGE_DONE = 1e-6, MWI_SEARCH_RIDGE_NUDGE = 1e-3, MWI_SEARCH_RIDGE_STEP = 0.25;
 static const double MWI_SEARCH_SAME_ANGLE = 1e-11;
-typedef enum mwi_worth { MWI_IMPOSSIBLE, MWI_BEYOND_LIMITS, MWI_ON_BOTH_FLANKS, MWI_OF_A_LINE } mwi_worth;
-static inline mwi_worth mwi_worth_in(const mw_model *m, const mw_contact *c)
-{
-    const char *flag;
-    if (c->line) return MWI_OF_A_LINE;
-    if (!(c->curvature_min > 0.0)) return MWI_IMPOSSIBLE;
-    for (int bit = 0; c->flags >> bit && (flag = mwi_flag(m, bit)) != NULL; bit++)
-        if ((c->flags >> bit & 1u) && mwi_impossible(flag)) return MWI_IMPOSSIBLE;
-    return c->flags ? MWI_BEYOND_LIMITS : MWI_ON_BOTH_FLANKS;
-}
 static inline mwi_worth mwi_worth_of(const mw_model *m, const double *s, const double *x)
 {
     double o[MW_MAX_OBSERVATION];
@@ -9684,18 +9886,14 @@ static inline int mwi_search(const mw_model *m, const double *s, double *x, mw_i
 }
 #endif
 
-#ifndef MWI_CHOICE_H
+#if !defined(MWI_CHOICE_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_CHOICE_H
 enum { MWI_DOUBLINGS = 10 };
 static const double MWI_FIRST = 1.0 / 64.0;
 static const double MWI_STATION = 0.25;
 static const double MWI_FAR = 1.0;
 static const double MWI_HALF_A_TURN = 3.141592653589793;
-static const double MWI_BESIDE = 1e-5;
-enum { MWI_STRIDE_STEPS = 6, MWI_MAX_STRIDES = 4 };
-static const double MWI_CONTRACTION = 0.1;
-static const double MWI_GRID = 1e-8;
-static const double MWI_NO_FURTHER = 1e-7;
+enum { MWI_MAX_STRIDES = 4 };
 typedef struct mwi_pair {
     const mw_model *m;
     const double *p;
@@ -9708,10 +9906,6 @@ static inline void mwi_begin_walk(mwi_pair *t)
 {
     t->station = t->ended = 0;
     t->walked = t->reference;
-}
-static inline double mwi_reference_of(const mw_model *m, const double *p)
-{
-    return m->reference < 0 ? 0.0 : p[m->reference];
 }
 static inline double mwi_reference_angle(const mwi_pair *t)
 {
@@ -9799,50 +9993,6 @@ static inline int mwi_by_walk(mwi_pair *t, double phi, double *x, mw_info *info)
     mwi_search(t->m, t->s, x, info);
     return 0;
 }
-static inline void mwi_along_tangent(const mw_model *m, double *s, double phi, const double *x, double to, double *predicted)
-{
-    mwi_copy(predicted, x, m->nx);
-    m->set_phi(s, phi + MWI_BESIDE);
-    m->step(s, predicted);
-    for (int i = 0; i < m->nx; i++) predicted[i] = x[i] + (predicted[i] - x[i]) * ((to - phi) / MWI_BESIDE);
-}
-static inline int mwi_contracted(const mw_model *m, const double *s, double *x, mw_info *info)
-{
-    double longest = MWI_BRANCH_WIDTH;
-    *info = mwi_ended(MW_CONVERGED, 0);
-    for (info->iterations = 1; info->iterations <= MWI_STRIDE_STEPS; info->iterations++) {
-        info->step = m->step(s, x);
-        if (info->step < MWI_FUSED_TOLERANCE) return mwi_within_bounds(m, x);
-        if (!(info->step <= longest)) return 0;
-        longest = MWI_CONTRACTION * info->step;
-    }
-    return 0;
-}
-static inline int mwi_is_of(const mw_model *m, const double *s, int bend, const double *x)
-{
-    double o[MW_MAX_OBSERVATION];
-    mw_contact c;
-    mwi_contact_at(m, s, x, o, &c);
-    return mwi_bend_of(&c) == bend && mwi_touch(m, x, o) >= 0 && mwi_worth_in(m, &c) != MWI_IMPOSSIBLE;
-}
-static inline void mwi_settle(const mw_model *m, const double *s, double *x)
-{
-    double at[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
-    m->scale(s, scale);
-    for (int i = 0; i < m->nx; i++) {
-        const double much = MWI_TO_INTEGER * (MWI_GRID * scale[i]);
-        at[i] = (x[i] + much) - much;
-    }
-    m->step(s, at);
-    if (m->step(s, at) < MWI_FUSED_TOLERANCE && mwi_near(m, s, at, x, MWI_NO_FURTHER)) mwi_copy(x, at, m->nx);
-}
-static inline int mwi_stride(const mw_model *m, double *s, double phi0, const double *x0, int bend, double phi, double *x,
-                             mw_info *info)
-{
-    mwi_along_tangent(m, s, phi0, x0, phi, x);
-    m->set_phi(s, phi);
-    return mwi_contracted(m, s, x, info) && mwi_is_of(m, s, bend, x);
-}
 static inline int mwi_strode(mwi_pair *t, double phi, double *x, mw_info *info)
 {
     const double first = t->reference.phi[0];
@@ -9916,54 +10066,8 @@ static inline int mwi_solve(const mw_model *m, const double *p, double phi, doub
 }
 #endif
 
-#ifndef MWI_REDUCE_H
-#define MWI_REDUCE_H
-static const double MWI_TURN = 6.283185307179586;
-static const double MWI_TURN_MIDDLE = 2.4492935982947064e-16;
-static const double MWI_TURN_LAST = -5.989539619436679e-33;
-static const double MWI_HALVES = 134217729.0;
-static inline double mwi_upper_half(double a)
-{
-    const double c = MWI_HALVES * a;
-    return c - (c - a);
-}
-static inline double mwi_product(double a, double b, double *rest)
-{
-    const double product = a * b, a1 = mwi_upper_half(a), b1 = mwi_upper_half(b), a2 = a - a1, b2 = b - b1;
-    *rest = ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2;
-    return product;
-}
-static inline double mwi_less_pitches(double teeth, double phi, double pair)
-{
-    double turned_rest, pitches_rest, middle_rest;
-    const double turned = mwi_product(phi, teeth, &turned_rest), pitches = mwi_product(pair, MWI_TURN, &pitches_rest);
-    const double middle = mwi_product(pair, MWI_TURN_MIDDLE, &middle_rest);
-    const double above = (turned - pitches) + (turned_rest - pitches_rest);
-    return ((above - middle) - (middle_rest + pair * MWI_TURN_LAST)) / teeth;
-}
-static inline double mwi_reduce(double teeth, double reference, double phi, double *pair)
-{
-    const double pitch = MWI_TURN / teeth;
-    double angle = *pair = NAN, beyond = 1.0;
-    if (!(mwi_abs(phi) <= MW_MAX_ANGLE) || !(teeth >= 1.0)) return NAN;
-    *pair = ((phi - reference) / pitch + MWI_TO_INTEGER) - MWI_TO_INTEGER;
-    for (int k = 0; k < 3 && beyond != 0.0; k++) {
-        angle = mwi_less_pitches(teeth, phi, *pair);
-        beyond = angle - reference < -0.5 * pitch ? -1.0 : angle - reference >= 0.5 * pitch ? 1.0 : 0.0;
-        if (k < 2) *pair += beyond;
-    }
-    return angle;
-}
-#endif
-
-#ifndef MWI_FOLLOW_H
-#define MWI_FOLLOW_H
-static const double MWI_WARM = 0.25;
-enum { MWI_REFERENCE_KEPT, MWI_LAST_KEPT, MWI_BEND_KEPT, MWI_KEPT };
-static inline int mwi_has_memory(const mw_model *m)
-{
-    return m->memory >= 0 && m->ns - m->np - m->memory >= MWI_KEPT + 2 * m->nx;
-}
+#if !defined(MWI_COLD_H) && !defined(MW_DEVICE_ONLY)
+#define MWI_COLD_H
 static inline int mwi_recall(mwi_pair *t, const double *kept)
 {
     const int nx = t->m->nx;
@@ -9989,40 +10093,37 @@ static inline void mwi_keep(const mwi_pair *t, double *kept, double last, const 
     mwi_copy(kept + MWI_KEPT, t->at_reference, nx);
     mwi_copy(kept + MWI_KEPT + nx, x, nx);
 }
-static inline int mwi_go_on(const mw_model *m, double *s, double *kept, double phi, double *x, mw_info *info)
+static inline void mwi_anew(const mw_model *m, const double *p, double angle, double *s, double *kept, double *work, double *x, mw_info *info)
 {
-    double *last = kept + MWI_KEPT + m->nx, at[MW_MAX_UNKNOWNS];
-    if (!(mwi_abs(phi - kept[MWI_LAST_KEPT]) <= MWI_WARM)) return 0;
-    for (int i = 0; i < m->nx; i++)
-        if (!(x[i] == last[i])) return 0;
-    if (!mwi_stride(m, s, kept[MWI_LAST_KEPT], x, (int)kept[MWI_BEND_KEPT], phi, at, info)) return 0;
-    mwi_settle(m, s, at);
-    kept[MWI_LAST_KEPT] = phi;
-    mwi_copy(last, at, m->nx);
-    mwi_copy(x, at, m->nx);
-    return 1;
+    mwi_pair t;
+    if (!kept) {
+        mwi_solve(m, p, angle, s, work, x, info);
+        return;
+    }
+    t.m = m, t.p = p, t.s = s, t.work = work;
+    *info = mwi_ended(MW_BAD_INPUT, mwi_recall(&t, kept));
+    if (!info->guard) mwi_keep(&t, kept, mwi_solved(&t, angle, x, info) ? angle : NAN, x);
+    m->set_phi(s, angle);
 }
-static inline double mwi_own_angle(const mw_model *m, const double *p, double phi, double *pair)
-{
-    return mwi_reduce(p[m->teeth], mwi_reference_of(m, p), phi, pair);
-}
-static inline int mwi_follow_at(const mw_model *m, const double *p, double angle, double *s, double *work, double *x, mw_info *info)
+#endif
+
+#ifndef MWI_FOLLOW_H
+#define MWI_FOLLOW_H
+MW_BY_TABLE static inline int mwi_follow_at(const mw_model *m, const double *p, double angle, double *s, double *work, double *x, mw_info *info)
 {
     double *const kept = mwi_has_memory(m) ? s + m->memory : NULL;
     const int warm = kept && mwi_go_on(m, s, kept, angle, x, info);
-    if (!kept) mwi_solve(m, p, angle, s, work, x, info);
-    else if (!warm) {
-        mwi_pair t;
-        t.m = m, t.p = p, t.s = s, t.work = work;
-        *info = mwi_ended(MW_BAD_INPUT, mwi_recall(&t, kept));
-        if (!info->guard) mwi_keep(&t, kept, mwi_solved(&t, angle, x, info) ? angle : NAN, x);
-        m->set_phi(s, angle);
-    }
+#ifdef MW_DEVICE_ONLY
+    (void)p, (void)work;
+    if (!warm) *info = mwi_ended(MW_DIVERGED, 0);
+#else
+    if (!warm) mwi_anew(m, p, angle, s, kept, work, x, info);
+#endif
     info->cold = !warm;
     for (int i = 0; i < m->nx && info->status < 0; i++) x[i] = NAN;
     return info->status;
 }
-static inline int mwi_follow(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
+MW_BY_TABLE static inline int mwi_follow(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
 {
     double pair;
     const double angle = mwi_own_angle(m, p, phi, &pair);
@@ -10034,7 +10135,7 @@ static inline int mwi_follow(const mw_model *m, const double *p, double phi, dou
 }
 #endif
 
-#ifndef MWI_CYCLE_H
+#if !defined(MWI_CYCLE_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_CYCLE_H
 enum { MWI_PLACES = 16 };
 enum { MWI_LOOKS_A_PITCH = 16, MWI_LOOKS = 8 * MWI_LOOKS_A_PITCH, MWI_HALVINGS = 60 };
@@ -10265,7 +10366,7 @@ static inline int mwi_cycle(const mw_model *m, double *c, double phi, mw_cycle *
 }
 #endif
 
-#ifndef MWI_SELF_TEST_H
+#if !defined(MWI_SELF_TEST_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_SELF_TEST_H
 enum { MWI_SOUND, MWI_CONTRACTS, MWI_EXCEEDS, MWI_REORDERS, MWI_INVERTS, MWI_FLUSHES, MWI_NO_NAN, MWI_WRONG_ROOT, MWI_WRONG_CONTACT };
 static inline int mwi_unsound(void)
@@ -10291,6 +10392,7 @@ static inline int mwi_finds(const mw_model *m, const double *p, double phi, cons
 }
 #endif
 
+#ifndef MW_DEVICE_ONLY
 /* Complete a design: p[cylindrical_worm_zc_zc_NP] with open numbers NaN, in mm and rad; info may be NULL. Rules and defaults, then what the
  * design leaves to equations of its own. Returns 0, or 1 + k where cylindrical_worm_zc_zc_model.systems[k] has no solution. Where the design
  * lacks keys nothing is solved: cylindrical_worm_zc_zc_setup then names them, and info->guard is what it returns. */
@@ -10316,18 +10418,21 @@ static inline int cylindrical_worm_zc_zc_solve(double *s, double phi, double *x,
     return mwi_solve(&cylindrical_worm_zc_zc_model, p, phi, s, work, x, record);
 }
 
+#endif
+
 /* The tooth pair whose reference angle is the nearest to input angle phi, rad: *pair is its number, and the result its own
  * angle, phi less so many pitches, exact to the last digit for |phi| up to MW_MAX_ANGLE, beyond which both are not a number.
  * Pair k runs as pair 0 does, k pitches later: at phi its contact is that of pair 0 at this angle, the wheel k of its pitches on. */
-static inline double cylindrical_worm_zc_zc_reduce(const double *s, double phi, double *pair)
+MW_DEVICE static inline double cylindrical_worm_zc_zc_reduce(const double *s, double phi, double *pair)
 {
-    return mwi_own_angle(&cylindrical_worm_zc_zc_model, s + (cylindrical_worm_zc_zc_NS - cylindrical_worm_zc_zc_NP), phi, pair);
+    const double *const p = s + (cylindrical_worm_zc_zc_NS - cylindrical_worm_zc_zc_NP);
+    return mwi_reduce(p[cylindrical_worm_zc_zc_TEETH], cylindrical_worm_zc_zc_REFERENCE < 0 ? 0.0 : p[cylindrical_worm_zc_zc_REFERENCE], phi, pair);
 }
 
 /* The contact of the pair of cylindrical_worm_zc_zc_reduce at input angle phi, for a drive that turns on: s from cylindrical_worm_zc_zc_setup; x in: the result
  * of the call before, which is where this one begins if it is near, or not a number; x out: as of cylindrical_worm_zc_zc_solve at info->angle,
  * whatever was asked before, and s set up for that angle. info->pair is the pair's number. Returns info->status. */
-static inline int cylindrical_worm_zc_zc_follow(double *s, double phi, double *x, mw_info *info)
+MW_BY_TABLE static inline int cylindrical_worm_zc_zc_follow(double *s, double phi, double *x, mw_info *info)
 {
     double p[cylindrical_worm_zc_zc_NP], work[cylindrical_worm_zc_zc_NP];
     mw_info unused;
@@ -10336,6 +10441,7 @@ static inline int cylindrical_worm_zc_zc_follow(double *s, double phi, double *x
     return mwi_follow(&cylindrical_worm_zc_zc_model, p, phi, s, work, x, record);
 }
 
+#ifndef MW_DEVICE_ONLY
 /* Numbers that a drive of many pairs and two flanks keeps. */
 enum { cylindrical_worm_zc_zc_NC = MWI_SIDES + 2 * (MWI_STATE + cylindrical_worm_zc_zc_NS + MWI_PLACES * (1 + cylindrical_worm_zc_zc_NX)) };
 
@@ -10373,14 +10479,17 @@ static inline int cylindrical_worm_zc_zc_self_test(void)
     return unsound ? unsound : mwi_finds(&cylindrical_worm_zc_zc_model, cylindrical_worm_zc_zc_sample, cylindrical_worm_zc_zc_sample_angle, cylindrical_worm_zc_zc_sample_contact, s, work, x);
 }
 
+#endif
+
 /* Contact geometry at a solution x of cylindrical_worm_zc_zc_solve or cylindrical_worm_zc_zc_follow, s as it left it; o[cylindrical_worm_zc_zc_NO] as of cylindrical_worm_zc_zc_observe. cylindrical_worm_zc_zc_flags has the
  * names of contact->flags. Returns MW_CONVERGED or MW_LINE_CONTACT, or why x is no contact. */
-static inline int cylindrical_worm_zc_zc_geometry(const double *s, const double *x, double *o, mw_contact *contact)
+MW_BY_TABLE static inline int cylindrical_worm_zc_zc_geometry(const double *s, const double *x, double *o, mw_contact *contact)
 {
     const int kind = mwi_contact_at(&cylindrical_worm_zc_zc_model, s, x, o, contact), touch = mwi_touch(&cylindrical_worm_zc_zc_model, x, o);
     return touch < 0 ? touch : kind;
 }
 
+#ifndef MW_DEVICE_ONLY
 /* Name of a flag by the number of its bit, 0 for the lowest, not by contact->flags, in which several are set at once; NULL where
  * there is none. The margins of a contact are flagged where they are negative. */
 static inline const char *cylindrical_worm_zc_zc_flag(int bit)
@@ -10404,6 +10513,7 @@ static inline const char *cylindrical_worm_zc_zc_status_text(int status)
 {
     return mwi_status_text(status);
 }
+#endif
 
 #if defined(__GNUC__) && !defined(__clang__) && defined(__FMA__)
 #pragma GCC pop_options

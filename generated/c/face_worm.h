@@ -40,15 +40,75 @@
 #ifndef MESHWRIGHT_FACE_WORM_H
 #define MESHWRIGHT_FACE_WORM_H
 
+/* Processors beside the host. Each generated header repeats this block, so that it can be used alone.  SPDX-License-Identifier: MIT-0
+ *
+ * MW_DEVICE stands before every function that a device can call: what compilers for one ask for (CUDA, HIP), else nothing; who
+ * defines it before has that. With MW_DEVICE_ONLY a translation unit holds one drive without what no device has: tables of
+ * functions, the walk from start values, words. X_setup, X_set_phi, X_eval, X_step, X_observe, X_along, X_reduce and all else that
+ * is computed in straight lines are there, X_geometry, and X_follow, which answers MW_DIVERGED where it would solve anew. Compile
+ * without contraction (nvcc and NVRTC: --fmad=false; HIP: -ffp-contract=off) for the same bits as on the host. */
+#ifndef MW_DEVICE_H
+#define MW_DEVICE_H
+
+#if defined(__CUDACC_RTC__) || defined(__HIPCC_RTC__)
+/* A compiler at run time has no host and no headers. */
+#ifndef MW_DEVICE_ONLY
+#define MW_DEVICE_ONLY
+#endif
+#ifndef NAN
+#define NAN __builtin_bit_cast(double, 0x7ff8000000000000ull)
+#endif
+#ifndef HUGE_VAL
+#define HUGE_VAL __builtin_bit_cast(double, 0x7ff0000000000000ull)
+#endif
+#ifndef NULL
+#define NULL 0
+#endif
+#else
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
+#endif
+
+#if defined(__CUDACC__) || defined(__HIPCC__)
+#define MW_OF_DEVICES 1
+#else
+#define MW_OF_DEVICES 0
+#endif
+#ifndef MW_DEVICE
+#if MW_OF_DEVICES
+#define MW_DEVICE __host__ __device__
+#else
+#define MW_DEVICE
+#endif
+#endif
+
+/* Before a table that such functions read, before functions that read one, and around what only a host has: its tables are not
+ * a device's. */
+#ifdef MW_DEVICE_ONLY
+#if MW_OF_DEVICES
+#define MW_TABLE static __device__ const
+#else
+#define MW_TABLE static const
+#endif
+#define MW_BY_TABLE MW_DEVICE
+#define MW_HOST(of_host) NULL
+#else
+#define MW_TABLE static const
+#define MW_BY_TABLE
+#define MW_HOST(of_host) of_host
+#endif
+
+#endif
 
 /* The arithmetic that the results rest on: IEEE doubles, every operation rounded by itself. Each generated header repeats this
  * block, so that it can be used alone.  SPDX-License-Identifier: MIT-0 */
 #ifndef MW_ARITHMETIC
 #define MW_ARITHMETIC
 
+#ifndef MW_DEVICE_ONLY
 #include <float.h>
+#endif
 
 /* Options that change results are refused where a macro shows them; X_self_test finds the others. Who defines
  * MW_ANY_ARITHMETIC takes what comes. */
@@ -271,6 +331,8 @@ typedef struct mw_cycle {
 #define face_worm_NANCHOR 30
 #define face_worm_NEAREST 3.814697265625e-06
 #define face_worm_OTHER_FLANK -1
+#define face_worm_TEETH 1
+#define face_worm_REFERENCE (-1)
 #define face_worm_ABI 7
 #define face_worm_SPEC_HASH "d1f643fedb7c351527d8a653e78b8c5fcbff41a9d30f800ad2b6a80a6a03dbc0"
 
@@ -580,7 +642,7 @@ typedef union mw_bits {
 #endif
 
 /* Sine and cosine, relative error below 3.2e-16 for |a| < 1.6e6. */
-MW_INLINE void face_worm_sincos(double a, double *sine, double *cosine)
+MW_DEVICE MW_INLINE void face_worm_sincos(double a, double *sine, double *cosine)
 {
     const double magic = 6755399441055744.0; /* 1.5 * 2^52: a sum with it ends in the nearest integer to the rest */
     mw_bits turned, s, c;
@@ -620,7 +682,7 @@ MW_INLINE void face_worm_sincos(double a, double *sine, double *cosine)
 
 /* The same of an angle close to at[0], at[1] and at[2] being sine and cosine of that one. The square of the distance joins
  * *away: below 3.814697265625e-06 the series leave less than 1e-19. */
-MW_INLINE void face_worm_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
+MW_DEVICE MW_INLINE void face_worm_near_sincos(double a, double *sine, double *cosine, const double *at, double *away)
 {
     const double r = a - at[0], z = r * r;
     const double u = MW_FNMA(r * z, MW_FNMA(z, 0.008333333333333333, 0.16666666666666666), r);
@@ -631,13 +693,13 @@ MW_INLINE void face_worm_near_sincos(double a, double *sine, double *cosine, con
 }
 
 /* Sine and cosine by a call instead of written out in place, for all but the steps that solve for a contact. */
-MW_CALLED void face_worm_seldom_sincos(double a, double *sine, double *cosine)
+MW_DEVICE MW_CALLED void face_worm_seldom_sincos(double a, double *sine, double *cosine)
 {
     face_worm_sincos(a, sine, cosine);
 }
 
 /* Angle of the point (x, y); 0 at the origin. */
-MW_INLINE double face_worm_atan2(double y, double x)
+MW_DEVICE MW_INLINE double face_worm_atan2(double y, double x)
 {
     const double ax = x < 0.0 ? -x : x, ay = y < 0.0 ? -y : y;
     const double large = ax > ay ? ax : ay, small = ax > ay ? ay : ax;
@@ -679,7 +741,7 @@ MW_INLINE double face_worm_atan2(double y, double x)
 #endif
 
 /* Fill in every open parameter (not a number) that has a default or follows from others. p[face_worm_NP]. */
-static inline void face_worm_derive(double *p)
+MW_DEVICE static inline void face_worm_derive(double *p)
 {
     if (p[0] != p[0]) { /* s */
         p[0] = 1.0;
@@ -1762,7 +1824,7 @@ static inline void face_worm_derive(double *p)
 
 /* Design system pitch_point: q[face_worm_NP + 1] are the parameters and the share of the path (0 to 1),
  * y[3] = (u_hob, theta_hob, psi_hob). */
-static inline void face_worm_pitch_point_guess(const double *q, double *y)
+MW_DEVICE static inline void face_worm_pitch_point_guess(const double *q, double *y)
 {
     (void)q;
     y[0] = 0.0;
@@ -1770,7 +1832,7 @@ static inline void face_worm_pitch_point_guess(const double *q, double *y)
     y[2] = 0.0;
 }
 
-static inline void face_worm_pitch_point_scale(const double *q, double *y)
+MW_DEVICE static inline void face_worm_pitch_point_scale(const double *q, double *y)
 {
     (void)q;
     y[0] = q[3];
@@ -1778,7 +1840,7 @@ static inline void face_worm_pitch_point_scale(const double *q, double *y)
     y[2] = 1.0;
 }
 
-static inline void face_worm_pitch_point_eval(const double *q, const double *y, double *R, double *J)
+MW_DEVICE static inline void face_worm_pitch_point_eval(const double *q, const double *y, double *R, double *J)
 {
     const double t_q3v1j = 1.0 - q[13];
     const double t_g2rjp = y[0] * t_q3v1j;
@@ -1943,12 +2005,12 @@ static inline void face_worm_pitch_point_eval(const double *q, const double *y, 
 }
 
 /* Number of parameters it would fill in. */
-static inline int face_worm_pitch_point_open(const double *p)
+MW_DEVICE static inline int face_worm_pitch_point_open(const double *p)
 {
     return (p[20] != p[20]) + (p[21] != p[21]) + (p[22] != p[22]);
 }
 
-static inline void face_worm_pitch_point_fill(const double *y, double *q)
+MW_DEVICE static inline void face_worm_pitch_point_fill(const double *y, double *q)
 {
     if (q[20] != q[20]) q[20] = y[0];
     if (q[21] != q[21]) q[21] = y[1];
@@ -1957,21 +2019,21 @@ static inline void face_worm_pitch_point_fill(const double *y, double *q)
 
 /* Design system inner_point: q[face_worm_NP + 1] are the parameters and the share of the path (0 to 1),
  * y[2] = (theta_hob, psi_hob). */
-static inline void face_worm_inner_point_guess(const double *q, double *y)
+MW_DEVICE static inline void face_worm_inner_point_guess(const double *q, double *y)
 {
     (void)q;
     y[0] = 0.0;
     y[1] = 0.0;
 }
 
-static inline void face_worm_inner_point_scale(const double *q, double *y)
+MW_DEVICE static inline void face_worm_inner_point_scale(const double *q, double *y)
 {
     (void)q;
     y[0] = 1.0;
     y[1] = 1.0;
 }
 
-static inline void face_worm_inner_point_eval(const double *q, const double *y, double *R, double *J)
+MW_DEVICE static inline void face_worm_inner_point_eval(const double *q, const double *y, double *R, double *J)
 {
     const double t_bk3y3 = 1.0 / q[2];
     const double t_xq3ff = q[1] * t_bk3y3;
@@ -2080,7 +2142,7 @@ static inline void face_worm_inner_point_eval(const double *q, const double *y, 
 }
 
 /* Positive where the solution is regular. */
-static inline double face_worm_inner_point_watch(const double *q, const double *y)
+MW_DEVICE static inline double face_worm_inner_point_watch(const double *q, const double *y)
 {
     double sin_alpha, cos_alpha; face_worm_seldom_sincos(q[10], &sin_alpha, &cos_alpha);
     const double t_y3kdc = cos_alpha * (-0.5);
@@ -2204,12 +2266,12 @@ static inline double face_worm_inner_point_watch(const double *q, const double *
 }
 
 /* Number of parameters it would fill in. */
-static inline int face_worm_inner_point_open(const double *p)
+MW_DEVICE static inline int face_worm_inner_point_open(const double *p)
 {
     return (p[23] != p[23]) + (p[24] != p[24]);
 }
 
-static inline void face_worm_inner_point_fill(const double *y, double *q)
+MW_DEVICE static inline void face_worm_inner_point_fill(const double *y, double *q)
 {
     if (q[23] != q[23]) q[23] = y[0];
     if (q[24] != q[24]) q[24] = y[1];
@@ -2217,21 +2279,21 @@ static inline void face_worm_inner_point_fill(const double *y, double *q)
 
 /* Design system outer_point: q[face_worm_NP + 1] are the parameters and the share of the path (0 to 1),
  * y[2] = (theta_hob, psi_hob). */
-static inline void face_worm_outer_point_guess(const double *q, double *y)
+MW_DEVICE static inline void face_worm_outer_point_guess(const double *q, double *y)
 {
     (void)q;
     y[0] = 0.0;
     y[1] = 0.0;
 }
 
-static inline void face_worm_outer_point_scale(const double *q, double *y)
+MW_DEVICE static inline void face_worm_outer_point_scale(const double *q, double *y)
 {
     (void)q;
     y[0] = 1.0;
     y[1] = 1.0;
 }
 
-static inline void face_worm_outer_point_eval(const double *q, const double *y, double *R, double *J)
+MW_DEVICE static inline void face_worm_outer_point_eval(const double *q, const double *y, double *R, double *J)
 {
     const double t_bk3y3 = 1.0 / q[2];
     const double t_xq3ff = q[1] * t_bk3y3;
@@ -2340,7 +2402,7 @@ static inline void face_worm_outer_point_eval(const double *q, const double *y, 
 }
 
 /* Positive where the solution is regular. */
-static inline double face_worm_outer_point_watch(const double *q, const double *y)
+MW_DEVICE static inline double face_worm_outer_point_watch(const double *q, const double *y)
 {
     double sin_alpha, cos_alpha; face_worm_seldom_sincos(q[10], &sin_alpha, &cos_alpha);
     const double t_y3kdc = cos_alpha * (-0.5);
@@ -2464,19 +2526,19 @@ static inline double face_worm_outer_point_watch(const double *q, const double *
 }
 
 /* Number of parameters it would fill in. */
-static inline int face_worm_outer_point_open(const double *p)
+MW_DEVICE static inline int face_worm_outer_point_open(const double *p)
 {
     return (p[25] != p[25]) + (p[26] != p[26]);
 }
 
-static inline void face_worm_outer_point_fill(const double *y, double *q)
+MW_DEVICE static inline void face_worm_outer_point_fill(const double *y, double *q)
 {
     if (q[25] != q[25]) q[25] = y[0];
     if (q[26] != q[26]) q[26] = y[1];
 }
 
 /* Derived sizes, for reports. p[face_worm_NP] complete; d[face_worm_ND]. */
-static inline void face_worm_size(const double *p, double *d)
+MW_DEVICE static inline void face_worm_size(const double *p, double *d)
 {
     const double t_kph6j = p[1] * 0.5;
     const double t_xz126 = p[3] * t_kph6j;
@@ -2508,7 +2570,7 @@ static inline void face_worm_size(const double *p, double *d)
 
 /* Of parameters that face_worm_derive leaves open: the number of the text in face_worm_guard_texts that names keys which the
  * design lacks; else `otherwise`. */
-static inline int face_worm_missing(const double *p, int otherwise)
+MW_DEVICE static inline int face_worm_missing(const double *p, int otherwise)
 {
     if (p[1] != p[1]) return 10;
     if (p[2] != p[2]) return 11;
@@ -2526,7 +2588,7 @@ static inline int face_worm_missing(const double *p, int otherwise)
 /* Design stage: p[face_worm_NP] complete; s[face_worm_NS], the parameters themselves at its end. Returns 0, or 1 + the index in
  * face_worm_guard_texts of what does not hold: of a key that is missing first. */
 /* Equations: derivation/root, derivation/quotient, derivation/relative, derivation/tangent, derivation/step-size. */
-static inline int face_worm_setup(const double *p, double *s)
+MW_DEVICE static inline int face_worm_setup(const double *p, double *s)
 {
     int failed = 0;
     {
@@ -3046,7 +3108,7 @@ static inline int face_worm_setup(const double *p, double *s)
 }
 
 /* Instant stage: input angle phi, rad. */
-static inline void face_worm_set_phi(double *s, double phi)
+MW_DEVICE static inline void face_worm_set_phi(double *s, double phi)
 {
     const double t_nxgn9 = phi * MW_S(ytsbm);
     const double t_tkdpv = phi * MW_S(xq3ff);
@@ -3076,7 +3138,7 @@ static inline void face_worm_set_phi(double *s, double phi)
 /* Equations: derivation/revolved, face_worm/blade-normal, derivation/invariance, derivation/envelope, face-worm/eq-10,
  *   derivation/translation, derivation/swing, derivation/rotation, conventions/rotations, conventions/sums,
  *   derivation/placement, face_worm/cone-normal, cylindrical_worm/contact, derivation/angles. */
-static inline void face_worm_eval(const double *s, const double *x, double *R, double *J)
+MW_DEVICE static inline void face_worm_eval(const double *s, const double *x, double *R, double *J)
 {
     const double t_cj10j = x[1] * 0.5;
     double sin_cj10j, cos_cj10j; face_worm_sincos(t_cj10j, &sin_cj10j, &cos_cj10j);
@@ -3590,7 +3652,7 @@ static inline void face_worm_eval(const double *s, const double *x, double *R, d
  *   derivation/translation, derivation/swing, derivation/rotation, conventions/rotations, conventions/sums,
  *   derivation/placement, face_worm/cone-normal, cylindrical_worm/contact, derivation/angles,
  *   derivation/elimination, derivation/step-size. */
-static inline double face_worm_step(const double *s, double *x)
+MW_DEVICE static inline double face_worm_step(const double *s, double *x)
 {
     const double t_wheel_angle = x[5] + MW_S(tkdpv);
     const double t_cj10j = x[1] * 0.5;
@@ -4154,7 +4216,7 @@ static inline double face_worm_step(const double *s, double *x)
 /* Equations: derivation/revolved, face_worm/blade-normal, derivation/invariance, derivation/envelope, face-worm/eq-10,
  *   derivation/translation, derivation/swing, derivation/rotation, conventions/rotations, conventions/sums,
  *   derivation/placement, face_worm/cone-normal, cylindrical_worm/contact, derivation/angles. */
-static inline double face_worm_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
+MW_DEVICE static inline double face_worm_by_anchor(const double *s, const double *at, double phi, const double *x, double *R)
 {
     double away = 0.0;
     (void)at, (void)phi;
@@ -4350,7 +4412,7 @@ static inline double face_worm_by_anchor(const double *s, const double *at, doub
 #endif
 
 /* The angles at phi and x of which face_worm_by_anchor reads sine and cosine, each with these: at[face_worm_NANCHOR]. */
-static inline void face_worm_anchor(const double *s, double phi, const double *x, double *at)
+MW_DEVICE static inline void face_worm_anchor(const double *s, double phi, const double *x, double *at)
 {
     (void)s, (void)phi, (void)x, (void)at;
     const double t_gzpd1 = x[2] * (-0.5);
@@ -4390,7 +4452,7 @@ static inline void face_worm_anchor(const double *s, double phi, const double *x
 /* Equations: derivation/revolved, face_worm/blade-normal, derivation/invariance, derivation/envelope, face-worm/eq-10,
  *   derivation/translation, derivation/swing, derivation/rotation, conventions/rotations, conventions/sums,
  *   derivation/placement, face_worm/cone-normal, cylindrical_worm/contact, derivation/angles. */
-static inline void face_worm_along(const double *s, double phi, const double *x, const double *v, double *d1, double *d2)
+MW_DEVICE static inline void face_worm_along(const double *s, double phi, const double *x, const double *v, double *d1, double *d2)
 {
     const double t_gzpd1 = x[2] * (-0.5);
     const double t_ycgvf = MW_FMA(phi, 0.5, t_gzpd1);
@@ -5170,21 +5232,21 @@ static inline void face_worm_along(const double *s, double phi, const double *x,
 }
 
 /* First guess y[face_worm_NSTART] of the start system. */
-static inline void face_worm_guess(const double *s, double *y)
+MW_DEVICE static inline void face_worm_guess(const double *s, double *y)
 {
     (void)s, (void)y;
     y[0] = 0.0;
 }
 
 /* Natural size y[face_worm_NSTART] of each unknown of the start system. */
-static inline void face_worm_start_scale(const double *s, double *y)
+MW_DEVICE static inline void face_worm_start_scale(const double *s, double *y)
 {
     (void)s, (void)y;
     y[0] = 1.0;
 }
 
 /* Start system: residual and Jacobian as in face_worm_eval. */
-static inline void face_worm_start_eval(const double *s, const double *y, double *R, double *J)
+MW_DEVICE static inline void face_worm_start_eval(const double *s, const double *y, double *R, double *J)
 {
     (void)s, (void)y, (void)R;
     const double t_cj10j = y[0] * 0.5;
@@ -5258,7 +5320,7 @@ static inline void face_worm_start_eval(const double *s, const double *y, double
 }
 
 /* Start values x[face_worm_NX] from the solved start system. */
-static inline void face_worm_start_solution(const double *s, const double *y, double *x)
+MW_DEVICE static inline void face_worm_start_solution(const double *s, const double *y, double *x)
 {
     (void)s, (void)y;
     x[0] = 0.0;
@@ -5270,7 +5332,7 @@ static inline void face_worm_start_solution(const double *s, const double *y, do
 }
 
 /* Natural size x[face_worm_NX] of each unknown. */
-static inline void face_worm_scale(const double *s, double *x)
+MW_DEVICE static inline void face_worm_scale(const double *s, double *x)
 {
     (void)s;
     x[0] = MW_S(m_ax);
@@ -5317,7 +5379,7 @@ static inline void face_worm_scale(const double *s, double *x)
  *   derivation/translation, derivation/swing, derivation/rotation, conventions/rotations, conventions/sums,
  *   derivation/placement, face_worm/cone-normal, cylindrical_worm/contact, derivation/angles, derivation/unit,
  *   cylindrical_worm/undercut, derivation/root, derivation/quotient. */
-static inline void face_worm_observe(const double *s, const double *x, double *o)
+MW_DEVICE static inline void face_worm_observe(const double *s, const double *x, double *o)
 {
     const double t_ycgvf = MW_FMA(x[2], (-0.5), MW_S(zjkp3));
     double sin_ycgvf, cos_ycgvf; face_worm_seldom_sincos(t_ycgvf, &sin_ycgvf, &cos_ycgvf);
@@ -6077,7 +6139,7 @@ static inline void face_worm_observe(const double *s, const double *x, double *o
 /* Equations: derivation/revolved, face_worm/blade-normal, derivation/invariance, derivation/envelope, face-worm/eq-10,
  *   derivation/translation, derivation/swing, derivation/rotation, conventions/rotations, conventions/sums,
  *   derivation/placement, derivation/unit, cylindrical_worm/undercut. */
-static inline void face_worm_flank_pinion(const double *s, const double *q, double *o)
+MW_DEVICE static inline void face_worm_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
     const double t_cjx97 = q[2] * 0.5;
@@ -6397,7 +6459,7 @@ static inline void face_worm_flank_pinion(const double *s, const double *q, doub
 /* Equations: derivation/revolved, face_worm/blade-normal, derivation/invariance, derivation/envelope, face-worm/eq-10,
  *   derivation/translation, derivation/swing, derivation/rotation, conventions/rotations, conventions/sums,
  *   derivation/placement, derivation/unit, cylindrical_worm/undercut, derivation/root, derivation/quotient. */
-static inline void face_worm_curvature_flank_pinion(const double *s, const double *q, double *o)
+MW_DEVICE static inline void face_worm_curvature_flank_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
     const double t_rq5yx = q[2] * MW_S(xq3ff);
@@ -6801,7 +6863,7 @@ static inline void face_worm_curvature_flank_pinion(const double *s, const doubl
  */
 /* Equations: derivation/revolved, face_worm/cone-normal, derivation/translation, derivation/swing, derivation/placement,
  *   derivation/rotation, derivation/unit, cylindrical_worm/undercut, derivation/root. */
-static inline void face_worm_flank_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void face_worm_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     const double t_ymxtc = q[0] * MW_S(sin_alpha_g);
@@ -6905,7 +6967,7 @@ static inline void face_worm_flank_wheel(const double *s, const double *q, doubl
  */
 /* Equations: derivation/revolved, face_worm/cone-normal, derivation/translation, derivation/swing, derivation/placement,
  *   derivation/rotation, derivation/unit, cylindrical_worm/undercut, derivation/root, derivation/quotient. */
-static inline void face_worm_curvature_flank_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void face_worm_curvature_flank_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     double sin_theta_gear, cos_theta_gear; face_worm_seldom_sincos(q[1], &sin_theta_gear, &cos_theta_gear);
@@ -7051,7 +7113,7 @@ static inline void face_worm_curvature_flank_wheel(const double *s, const double
  */
 /* Equations: derivation/revolved, face_worm/fillet-join, face_worm/fillet-tangent, derivation/translation,
  *   derivation/swing, derivation/placement, derivation/rotation, derivation/unit, cylindrical_worm/undercut. */
-static inline void face_worm_fillet_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void face_worm_fillet_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     const double t_dystg = q[1] * 0.5;
@@ -7163,7 +7225,7 @@ static inline void face_worm_fillet_wheel(const double *s, const double *q, doub
 /* Equations: derivation/revolved, face_worm/fillet-join, face_worm/fillet-tangent, derivation/translation,
  *   derivation/swing, derivation/placement, derivation/rotation, derivation/unit, cylindrical_worm/undercut,
  *   derivation/root, derivation/quotient. */
-static inline void face_worm_curvature_fillet_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void face_worm_curvature_fillet_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     double sin_lambda_gear, cos_lambda_gear; face_worm_seldom_sincos(q[0], &sin_lambda_gear, &cos_lambda_gear);
@@ -7350,7 +7412,7 @@ static inline void face_worm_curvature_fillet_wheel(const double *s, const doubl
  */
 /* Equations: derivation/swept, derivation/invariance, derivation/envelope, face_worm/harmonic, conventions/rotations,
  *   conventions/sums, derivation/rotation, derivation/translation, derivation/unit, cylindrical_worm/undercut. */
-static inline void face_worm_flank_reference_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void face_worm_flank_reference_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     const double t_n3rwk = MW_FMA(q[0], MW_S(cos_alpha), MW_S(n04xv));
@@ -7496,7 +7558,7 @@ static inline void face_worm_flank_reference_wheel(const double *s, const double
 /* Equations: derivation/swept, derivation/invariance, derivation/envelope, face_worm/harmonic, conventions/rotations,
  *   conventions/sums, derivation/rotation, derivation/translation, derivation/unit, cylindrical_worm/undercut,
  *   derivation/root, derivation/quotient. */
-static inline void face_worm_curvature_flank_reference_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void face_worm_curvature_flank_reference_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     const double t_dmqz0 = q[2] * MW_S(xq3ff);
@@ -7731,7 +7793,7 @@ static inline void face_worm_curvature_flank_reference_wheel(const double *s, co
  *    33 axis_point_wheel[3], mm, frame f
  */
 /* Equations: derivation/translation, derivation/swing, derivation/rotation, conventions/rotations, conventions/sums. */
-static inline void face_worm_placement(const double *s, const double *q, double *o)
+MW_DEVICE static inline void face_worm_placement(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -7790,7 +7852,7 @@ static inline void face_worm_placement(const double *s, const double *q, double 
  *     3 along_first, mm, frame tool
  *     4 along_last, mm, frame tool
  */
-static inline void face_worm_undercut_range_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void face_worm_undercut_range_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -7805,7 +7867,7 @@ static inline void face_worm_undercut_range_wheel(const double *s, const double 
  * q = (u_gear, theta_gear).
  *     0 edge_position, mm, frame tool
  */
-static inline void face_worm_undercut_place_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void face_worm_undercut_place_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -7818,7 +7880,7 @@ static inline void face_worm_undercut_place_wheel(const double *s, const double 
  *     1 middle, mm, frame tool
  *     2 last, mm, frame tool
  */
-static inline void face_worm_undercut_range_pinion(const double *s, const double *q, double *o)
+MW_DEVICE static inline void face_worm_undercut_range_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -7833,7 +7895,7 @@ static inline void face_worm_undercut_range_pinion(const double *s, const double
  *     1 inside, frame wheel
  */
 /* Equations: derivation/root. */
-static inline void face_worm_undercut_place_pinion(const double *s, const double *q, double *o)
+MW_DEVICE static inline void face_worm_undercut_place_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -7869,7 +7931,7 @@ static inline void face_worm_undercut_place_pinion(const double *s, const double
  *     1 middle, mm, frame tool
  *     2 last, mm, frame tool
  */
-static inline void face_worm_undercut_range_reference_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void face_worm_undercut_range_reference_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -7884,7 +7946,7 @@ static inline void face_worm_undercut_range_reference_wheel(const double *s, con
  *     1 inside, frame wheel
  */
 /* Equations: derivation/root. */
-static inline void face_worm_undercut_place_reference_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void face_worm_undercut_place_reference_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -7920,7 +7982,7 @@ static inline void face_worm_undercut_place_reference_wheel(const double *s, con
  *     3 inner, mm, frame wheel
  *     4 outer, mm, frame wheel
  */
-static inline void face_worm_tool_clearance(const double *s, const double *q, double *o)
+MW_DEVICE static inline void face_worm_tool_clearance(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -7944,7 +8006,7 @@ static inline void face_worm_tool_clearance(const double *s, const double *q, do
  *     8 fillet_land, rad
  *     9 middle, mm
  */
-static inline void face_worm_solid_wheel(const double *s, const double *q, double *o)
+MW_DEVICE static inline void face_worm_solid_wheel(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -7973,7 +8035,7 @@ static inline void face_worm_solid_wheel(const double *s, const double *q, doubl
  *     8 span_middle, mm
  *     9 span_tip, mm
  */
-static inline void face_worm_solid_pinion(const double *s, const double *q, double *o)
+MW_DEVICE static inline void face_worm_solid_pinion(const double *s, const double *q, double *o)
 {
     (void)s;
     (void)q;
@@ -7993,7 +8055,7 @@ static inline void face_worm_solid_pinion(const double *s, const double *q, doub
 #pragma GCC pop_options
 #endif
 
-static const mw_name face_worm_unknown_names[] = {
+MW_TABLE mw_name face_worm_unknown_names[] = {
     { "u_worm", "mm", "along the worm's blade", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "theta_worm", "rad", "around the axis of the worm's head-cutter", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "psi_worm", "rad", "angle of the worm in cutting", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
@@ -8001,7 +8063,8 @@ static const mw_name face_worm_unknown_names[] = {
     { "theta_gear", "rad", "around the head-cutter's axis", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "transmission_error", "rad", "gear angle less ratio times worm angle", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
 };
-static const mw_name face_worm_parameter_names[] = {
+#ifndef MW_DEVICE_ONLY
+MW_TABLE mw_name face_worm_parameter_names[] = {
     { "s", "", "side of the gear tooth", "flank", "flank", 1.0, -HUGE_VAL, HUGE_VAL },
     { "N_1", "", "threads of the worm", "worm_threads", "design", 1.0, 0.0, HUGE_VAL },
     { "N_2", "", "teeth of the gear", "gear_teeth", "design", 1.0, 0.0, HUGE_VAL },
@@ -8056,7 +8119,7 @@ static const mw_name face_worm_parameter_names[] = {
     { "h_a", "mm", "height of the gear tooth above P, along the head-cutter's axis", "gear_addendum_mm", "blank", 1.0, 0.0, HUGE_VAL },
     { "delta", "mm", "separation for contact ellipses", "separation_mm", "contact", 1.0, 0.0, HUGE_VAL },
 };
-static const mw_name face_worm_size_names[] = {
+MW_TABLE mw_name face_worm_size_names[] = {
     { "screw_parameter_worm_mm_per_rad", "mm/rad", "screw parameter of the worm", "screw_parameter_worm_mm_per_rad", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "lead_worm_mm", "mm", "lead of the worm", "lead_worm_mm", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "head_cutter_tilt_deg", "rad", "angle between the head-cutter's and the gear's axis", "head_cutter_tilt_deg", "", 0.017453292519943295, -HUGE_VAL, HUGE_VAL },
@@ -8064,7 +8127,7 @@ static const mw_name face_worm_size_names[] = {
     { "fillet_angle_deg", "rad", "angle of the rounding, from the bottom of the space to the flank", "fillet_angle_deg", "", 0.017453292519943295, -HUGE_VAL, HUGE_VAL },
     { "ratio", "", "wheel turns per pinion turn N1/N2, the inverse of the gear ratio", "ratio", "", 1.0, -HUGE_VAL, HUGE_VAL },
 };
-static const mw_name face_worm_output_names[] = {
+MW_TABLE mw_name face_worm_output_names[] = {
     { "point_pinion_f", "mm", "", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "normal_pinion_f", "", "", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
     { "point_wheel_f", "mm", "", "", "", 1.0, -HUGE_VAL, HUGE_VAL },
@@ -8114,21 +8177,25 @@ static const char *const face_worm_guard_texts[] = {
     "profile_angle_deg: missing from the design: give it a value",
     "blade_parabola_per_mm: missing from the design: give it a value",
 };
-static const int face_worm_pinion_unknowns[] = { 0, 1, 2 };
-static const char *const face_worm_pinion_flags[] = { NULL };
-static const char *const face_worm_pinion_events[] = { NULL };
-static const int face_worm_wheel_unknowns[] = { 3, 4 };
-static const char *const face_worm_wheel_flags[] = { "off_face", "off_tip", "off_root", NULL };
-static const char *const face_worm_wheel_events[] = { "face", "tip", "root", NULL };
-static const mw_body face_worm_bodies[] = {
+/* Places in s of what a misalignment changes beside the input angle: all other numbers are those of the design. */
+static const int face_worm_POSE[] = { 22, 24, 28, 30, 31, 80, 82, 83, 93, 94, 95, 138, 139, 229, 230, 231 };
+#endif
+MW_TABLE int face_worm_pinion_unknowns[] = { 0, 1, 2 };
+MW_TABLE char *const face_worm_pinion_flags[] = { NULL };
+MW_TABLE char *const face_worm_pinion_events[] = { NULL };
+MW_TABLE int face_worm_wheel_unknowns[] = { 3, 4 };
+MW_TABLE char *const face_worm_wheel_flags[] = { "off_face", "off_tip", "off_root", NULL };
+MW_TABLE char *const face_worm_wheel_events[] = { "face", "tip", "root", NULL };
+MW_TABLE mw_body face_worm_bodies[] = {
     { "pinion", 3, 1, 12, 19, 31, 32, 0,
       face_worm_pinion_unknowns, face_worm_pinion_flags, face_worm_pinion_events,
-      20, face_worm_flank_pinion, face_worm_curvature_flank_pinion },
+      20, MW_HOST(face_worm_flank_pinion), MW_HOST(face_worm_curvature_flank_pinion) },
     { "wheel", 2, 0, 15, 32, 38, 39, 3,
       face_worm_wheel_unknowns, face_worm_wheel_flags, face_worm_wheel_events,
-      16, face_worm_flank_wheel, face_worm_curvature_flank_wheel },
+      16, MW_HOST(face_worm_flank_wheel), MW_HOST(face_worm_curvature_flank_wheel) },
 };
 
+#ifndef MW_DEVICE_ONLY
 static const mw_system face_worm_systems[] = {
     { "pitch_point", 3, face_worm_pitch_point_guess, face_worm_pitch_point_scale, face_worm_pitch_point_eval, NULL, face_worm_pitch_point_open, face_worm_pitch_point_fill },
     { "inner_point", 2, face_worm_inner_point_guess, face_worm_inner_point_scale, face_worm_inner_point_eval, face_worm_inner_point_watch, face_worm_inner_point_open, face_worm_inner_point_fill },
@@ -8150,53 +8217,63 @@ static const mw_function face_worm_functions[] = {
     { "solid_wheel", 0, 10, face_worm_solid_wheel },
     { "solid_pinion", 0, 10, face_worm_solid_pinion },
 };
+#endif
 
 /* The model table by which runtime/c solves this drive; its object (runtime/c/drive) adds lane kernels and tangents. */
-#ifndef MW_KERNELS
+#if !defined(MW_KERNELS) || defined(MW_DEVICE_ONLY)
+#undef MW_KERNELS
 #define MW_KERNELS NULL
 #endif
-static const mw_model face_worm_model = {
+MW_TABLE mw_model face_worm_model = {
     face_worm_ABI, "face_worm", "face-worm", "Face worm gear drive with a conical or cylindrical worm", face_worm_SPEC_HASH,
     face_worm_NX, face_worm_NP, face_worm_NS, face_worm_NO, face_worm_ND, face_worm_NSTART, 9,
-    5, 18, -1, 1, face_worm_MEMORY, 42,
-    face_worm_unknown_names, face_worm_parameter_names, face_worm_size_names,
-    face_worm_output_names, 26, face_worm_output_sizes, face_worm_guard_texts, face_worm_bodies,
-    face_worm_derive, face_worm_size, face_worm_setup, face_worm_set_phi, face_worm_eval, face_worm_step,
-    face_worm_NANCHOR, face_worm_NEAREST, face_worm_anchor, face_worm_by_anchor, face_worm_along,
-    face_worm_guess, face_worm_start_scale, face_worm_start_eval, face_worm_start_solution, face_worm_observe, face_worm_scale,
-    3, face_worm_systems, 2, face_worm_regions,
-    10, face_worm_functions, MW_KERNELS
+    5, 18, face_worm_REFERENCE, face_worm_TEETH, face_worm_MEMORY, 42,
+    face_worm_unknown_names, MW_HOST(face_worm_parameter_names), MW_HOST(face_worm_size_names),
+    MW_HOST(face_worm_output_names), 26, MW_HOST(face_worm_output_sizes), MW_HOST(face_worm_guard_texts), face_worm_bodies,
+    MW_HOST(face_worm_derive), MW_HOST(face_worm_size), MW_HOST(face_worm_setup), MW_HOST(face_worm_set_phi), MW_HOST(face_worm_eval), MW_HOST(face_worm_step),
+    face_worm_NANCHOR, face_worm_NEAREST, MW_HOST(face_worm_anchor), MW_HOST(face_worm_by_anchor), MW_HOST(face_worm_along),
+    MW_HOST(face_worm_guess), MW_HOST(face_worm_start_scale), MW_HOST(face_worm_start_eval), MW_HOST(face_worm_start_solution), MW_HOST(face_worm_observe), MW_HOST(face_worm_scale),
+    3, MW_HOST(face_worm_systems), 2, MW_HOST(face_worm_regions),
+    10, MW_HOST(face_worm_functions), MW_KERNELS
 };
+
+#ifdef MW_DEVICE_ONLY
+#ifdef MW_CALL
+#error "with MW_DEVICE_ONLY a translation unit holds one drive: include one header"
+#endif
+#define MW_CALL(m, function) face_worm_##function
+#endif
 
 /* The solver of the library; commented in runtime/c/solver. */
 
 #ifndef MWI_BASICS_H
 #define MWI_BASICS_H
-#include <math.h>
-#include <stddef.h>
-static inline double mwi_abs(double a)
+#ifndef MW_CALL
+#define MW_CALL(m, function) (m)->function
+#endif
+MW_DEVICE static inline double mwi_abs(double a)
 {
     return a < 0.0 ? -a : a;
 }
-static inline double mwi_larger(double a, double b)
+MW_DEVICE static inline double mwi_larger(double a, double b)
 {
     return a > b ? a : b;
 }
 static const double MWI_TO_INTEGER = 6755399441055744.0;
-static inline void mwi_copy(double *to, const double *from, int n)
+MW_DEVICE static inline void mwi_copy(double *to, const double *from, int n)
 {
     for (int i = 0; i < n; i++) to[i] = from[i];
 }
-static inline void mwi_clear(double *a, int n)
+MW_DEVICE static inline void mwi_clear(double *a, int n)
 {
     for (int i = 0; i < n; i++) a[i] = 0.0;
 }
-static inline int mwi_same_text(const char *a, const char *b)
+MW_DEVICE static inline int mwi_same_text(const char *a, const char *b)
 {
     while (*a && *a == *b) a++, b++;
     return *a == *b;
 }
-static inline mw_info mwi_ended(int status, int guard)
+MW_DEVICE static inline mw_info mwi_ended(int status, int guard)
 {
     mw_info info;
     info.status = status;
@@ -8206,6 +8283,7 @@ static inline mw_info mwi_ended(int status, int guard)
     info.step = info.residual = info.rank_gap = info.pair = info.angle = 0.0;
     return info;
 }
+#ifndef MW_DEVICE_ONLY
 static inline const char *mwi_status_word(int status)
 {
     switch (status) {
@@ -8236,8 +8314,9 @@ static inline int mwi_angle_in_range(double phi)
     return mwi_abs(phi) <= (double)MW_MAX_TURN;
 }
 #endif
+#endif
 
-#ifndef MWI_LINEAR_H
+#if !defined(MWI_LINEAR_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_LINEAR_H
 static inline void mwi_swap(double *a, double *b)
 {
@@ -8346,7 +8425,7 @@ static const double MW_FUSED_TOLERANCE = 1e-8;
 static const double MW_STEP_LIMIT = 0.7;
 #endif
 
-#ifndef MWI_NEWTON_H
+#if !defined(MWI_NEWTON_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_NEWTON_H
 enum { MWI_NEWTON_MAX_ITERATIONS = 60, MWI_NEWTON_MAX_HALVINGS = 5, MWI_NEWTON_PATIENCE = 8 };
 static const double MWI_NEWTON_STEP_DONE = 1e-9;
@@ -8450,7 +8529,7 @@ static inline int mwi_newton_fused(const mw_model *m, const double *s, double *x
 }
 #endif
 
-#ifndef MWI_COMPLETE_H
+#if !defined(MWI_COMPLETE_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_COMPLETE_H
 enum { MWI_PATH_STEPS = 32, MWI_PATH_MAX_HALVINGS = 8 };
 static inline int mwi_solve_system(const mw_model *m, const mw_system *system, double *q, double *y, mw_info *info)
@@ -8501,14 +8580,62 @@ static inline int mwi_complete(const mw_model *m, double *p, double *q, mw_info 
 }
 #endif
 
+#ifndef MWI_REDUCE_H
+#define MWI_REDUCE_H
+static const double MWI_TURN = 6.283185307179586;
+static const double MWI_TURN_MIDDLE = 2.4492935982947064e-16;
+static const double MWI_TURN_LAST = -5.989539619436679e-33;
+static const double MWI_HALVES = 134217729.0;
+MW_DEVICE static inline double mwi_upper_half(double a)
+{
+    const double c = MWI_HALVES * a;
+    return c - (c - a);
+}
+MW_DEVICE static inline double mwi_product(double a, double b, double *rest)
+{
+    const double product = a * b, a1 = mwi_upper_half(a), b1 = mwi_upper_half(b), a2 = a - a1, b2 = b - b1;
+    *rest = ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2;
+    return product;
+}
+MW_DEVICE static inline double mwi_less_pitches(double teeth, double phi, double pair)
+{
+    double turned_rest, pitches_rest, middle_rest;
+    const double turned = mwi_product(phi, teeth, &turned_rest), pitches = mwi_product(pair, MWI_TURN, &pitches_rest);
+    const double middle = mwi_product(pair, MWI_TURN_MIDDLE, &middle_rest);
+    const double above = (turned - pitches) + (turned_rest - pitches_rest);
+    return ((above - middle) - (middle_rest + pair * MWI_TURN_LAST)) / teeth;
+}
+MW_DEVICE static inline double mwi_reduce(double teeth, double reference, double phi, double *pair)
+{
+    const double pitch = MWI_TURN / teeth;
+    double angle = *pair = NAN, beyond = 1.0;
+    if (!(mwi_abs(phi) <= MW_MAX_ANGLE) || !(teeth >= 1.0)) return NAN;
+    *pair = ((phi - reference) / pitch + MWI_TO_INTEGER) - MWI_TO_INTEGER;
+    for (int k = 0; k < 3 && beyond != 0.0; k++) {
+        angle = mwi_less_pitches(teeth, phi, *pair);
+        beyond = angle - reference < -0.5 * pitch ? -1.0 : angle - reference >= 0.5 * pitch ? 1.0 : 0.0;
+        if (k < 2) *pair += beyond;
+    }
+    return angle;
+}
+MW_BY_TABLE static inline double mwi_reference_of(const mw_model *m, const double *p)
+{
+    return m->reference < 0 ? 0.0 : p[m->reference];
+}
+MW_BY_TABLE static inline double mwi_own_angle(const mw_model *m, const double *p, double phi, double *pair)
+{
+    return mwi_reduce(p[m->teeth], mwi_reference_of(m, p), phi, pair);
+}
+#endif
+
 #ifndef MWI_CONTACT_H
 #define MWI_CONTACT_H
 static const double MWI_LINE_SHARE = 1e-10;
-static inline double mwi_dot(const double *a, const double *b)
+MW_DEVICE static inline double mwi_dot(const double *a, const double *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-static inline void mwi_major_direction(const double *K, const double *e, double *major)
+MW_DEVICE static inline void mwi_major_direction(const double *K, const double *e, double *major)
 {
     const double half = 0.5 * (K[0] - K[2]), radius = sqrt(half * half + K[1] * K[1]);
     const double u = half > 0.0 ? -K[1] : half - radius;
@@ -8516,7 +8643,7 @@ static inline void mwi_major_direction(const double *K, const double *e, double 
     const double length = sqrt(u * u + v * v);
     for (int i = 0; i < 3; i++) major[i] = length > 0.0 ? (u * e[i] + v * e[3 + i]) / length : e[i];
 }
-static inline unsigned mwi_flags_of(const mw_model *m, const double *o, double curvature_min, int line)
+MW_BY_TABLE static inline unsigned mwi_flags_of(const mw_model *m, const double *o, double curvature_min, int line)
 {
     unsigned flags = 0, bit = 4;
     for (int b = 0; b < 2; b++)
@@ -8527,12 +8654,12 @@ static inline unsigned mwi_flags_of(const mw_model *m, const double *o, double c
             if (o[m->bodies[b].margin + i] < 0.0) flags |= bit;
     return flags;
 }
-static inline int mwi_impossible(const char *flag)
+MW_DEVICE static inline int mwi_impossible(const char *flag)
 {
     return mwi_same_text(flag, "interference") || mwi_same_text(flag, "spurious_sheet")
            || mwi_same_text(flag, "not_first");
 }
-static inline const char *mwi_flag(const mw_model *m, int bit)
+MW_BY_TABLE static inline const char *mwi_flag(const mw_model *m, int bit)
 {
     if (bit < 0) return NULL;
     if (bit == 0) return "undercut";
@@ -8542,6 +8669,7 @@ static inline const char *mwi_flag(const mw_model *m, int bit)
         if (bit < m->bodies[b].margins) return m->bodies[b].flags[bit];
     return NULL;
 }
+#ifndef MW_DEVICE_ONLY
 static inline int mwi_flags(const mw_model *m, unsigned flags, const char **names)
 {
     int count = 0;
@@ -8553,9 +8681,10 @@ static inline int mwi_flags(const mw_model *m, unsigned flags, const char **name
     }
     return count;
 }
-static inline int mwi_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c)
+#endif
+MW_BY_TABLE static inline int mwi_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c)
 {
-    m->observe(s, x, o);
+    MW_CALL(m, observe)(s, x, o);
     const double *pinion = o, *wheel = o + 6;
     const double *e = o + m->geometry, *gap = e + 12, *curvature = gap + 3;
     c->distance = c->misfit = 0.0;
@@ -8582,28 +8711,28 @@ static inline int mwi_contact_at(const mw_model *m, const double *s, const doubl
 #ifndef MWI_TOUCH_H
 #define MWI_TOUCH_H
 static const double MWI_ROUNDING = 4096.0 * 2.220446049250313e-16, MWI_BELIEVED = 1e-9;
-static inline int mwi_within_bounds(const mw_model *m, const double *x)
+MW_BY_TABLE static inline int mwi_within_bounds(const mw_model *m, const double *x)
 {
     const mw_name *end = m->unknowns + m->nx;
     for (const mw_name *unknown = m->unknowns; unknown < end; unknown++, x++)
         if (!(*x >= unknown->lower && *x <= unknown->upper)) return 0;
     return 1;
 }
-static inline double mwi_extent(const double *a)
+MW_DEVICE static inline double mwi_extent(const double *a)
 {
     return mwi_abs(a[0]) + mwi_abs(a[1]) + mwi_abs(a[2]);
 }
-static inline double mwi_terms(const mw_body *body, const double *o, const double *place, double angle, const double *x)
+MW_DEVICE static inline double mwi_terms(const mw_body *body, const double *o, const double *place, double angle, const double *x)
 {
     double size = (1.0 + mwi_abs(angle)) * mwi_extent(place);
     for (int i = 0; i < body->parameters; i++) size += mwi_abs(x[body->unknowns[i]]) * mwi_extent(o + body->at + 3 * i);
     return size;
 }
-static inline int mwi_is_rounding(double gap, double size, double unit)
+MW_DEVICE static inline int mwi_is_rounding(double gap, double size, double unit)
 {
     return gap <= MWI_ROUNDING * size && gap <= MWI_BELIEVED * unit;
 }
-static inline int mwi_touch(const mw_model *m, const double *x, const double *o)
+MW_BY_TABLE static inline int mwi_touch(const mw_model *m, const double *x, const double *o)
 {
     double apart[3], sum[3];
     const double *pinion = o, *wheel = o + 6, *forms = o + m->geometry + 6;
@@ -8621,9 +8750,104 @@ static inline int mwi_touch(const mw_model *m, const double *x, const double *o)
 }
 #endif
 
-#ifndef MWI_REFINE_H
-#define MWI_REFINE_H
+#ifndef MWI_WARM_H
+#define MWI_WARM_H
 static const double MWI_FUSED_TOLERANCE = 1e-9;
+static const double MWI_BRANCH_WIDTH = 0.25;
+static const double MWI_BESIDE = 1e-5;
+enum { MWI_STRIDE_STEPS = 6 };
+static const double MWI_CONTRACTION = 0.1;
+static const double MWI_GRID = 1e-8;
+static const double MWI_NO_FURTHER = 1e-7;
+static const double MWI_WARM = 0.25;
+enum { MWI_REFERENCE_KEPT, MWI_LAST_KEPT, MWI_BEND_KEPT, MWI_KEPT };
+MW_BY_TABLE static inline int mwi_has_memory(const mw_model *m)
+{
+    return m->memory >= 0 && m->ns - m->np - m->memory >= MWI_KEPT + 2 * m->nx;
+}
+MW_BY_TABLE static inline int mwi_near(const mw_model *m, const double *s, const double *a, const double *b, double sizes)
+{
+    double scale[MW_MAX_UNKNOWNS];
+    MW_CALL(m, scale)(s, scale);
+    for (int i = 0; i < m->nx; i++)
+        if (!(mwi_abs(a[i] - b[i]) <= sizes * scale[i])) return 0;
+    return 1;
+}
+MW_DEVICE static inline int mwi_bend_of(const mw_contact *c)
+{
+    return c->line ? 0 : c->curvature_min * c->curvature_max > 0.0 ? 1 : -1;
+}
+typedef enum mwi_worth { MWI_IMPOSSIBLE, MWI_BEYOND_LIMITS, MWI_ON_BOTH_FLANKS, MWI_OF_A_LINE } mwi_worth;
+MW_BY_TABLE static inline mwi_worth mwi_worth_in(const mw_model *m, const mw_contact *c)
+{
+    const char *flag;
+    if (c->line) return MWI_OF_A_LINE;
+    if (!(c->curvature_min > 0.0)) return MWI_IMPOSSIBLE;
+    for (int bit = 0; c->flags >> bit && (flag = mwi_flag(m, bit)) != NULL; bit++)
+        if ((c->flags >> bit & 1u) && mwi_impossible(flag)) return MWI_IMPOSSIBLE;
+    return c->flags ? MWI_BEYOND_LIMITS : MWI_ON_BOTH_FLANKS;
+}
+MW_BY_TABLE static inline void mwi_along_tangent(const mw_model *m, double *s, double phi, const double *x, double to, double *predicted)
+{
+    mwi_copy(predicted, x, m->nx);
+    MW_CALL(m, set_phi)(s, phi + MWI_BESIDE);
+    MW_CALL(m, step)(s, predicted);
+    for (int i = 0; i < m->nx; i++) predicted[i] = x[i] + (predicted[i] - x[i]) * ((to - phi) / MWI_BESIDE);
+}
+MW_BY_TABLE static inline int mwi_contracted(const mw_model *m, const double *s, double *x, mw_info *info)
+{
+    double longest = MWI_BRANCH_WIDTH;
+    *info = mwi_ended(MW_CONVERGED, 0);
+    for (info->iterations = 1; info->iterations <= MWI_STRIDE_STEPS; info->iterations++) {
+        info->step = MW_CALL(m, step)(s, x);
+        if (info->step < MWI_FUSED_TOLERANCE) return mwi_within_bounds(m, x);
+        if (!(info->step <= longest)) return 0;
+        longest = MWI_CONTRACTION * info->step;
+    }
+    return 0;
+}
+MW_BY_TABLE static inline int mwi_is_of(const mw_model *m, const double *s, int bend, const double *x)
+{
+    double o[MW_MAX_OBSERVATION];
+    mw_contact c;
+    mwi_contact_at(m, s, x, o, &c);
+    return mwi_bend_of(&c) == bend && mwi_touch(m, x, o) >= 0 && mwi_worth_in(m, &c) != MWI_IMPOSSIBLE;
+}
+MW_BY_TABLE static inline void mwi_settle(const mw_model *m, const double *s, double *x)
+{
+    double at[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
+    MW_CALL(m, scale)(s, scale);
+    for (int i = 0; i < m->nx; i++) {
+        const double much = MWI_TO_INTEGER * (MWI_GRID * scale[i]);
+        at[i] = (x[i] + much) - much;
+    }
+    MW_CALL(m, step)(s, at);
+    if (MW_CALL(m, step)(s, at) < MWI_FUSED_TOLERANCE && mwi_near(m, s, at, x, MWI_NO_FURTHER)) mwi_copy(x, at, m->nx);
+}
+MW_BY_TABLE static inline int mwi_stride(const mw_model *m, double *s, double phi0, const double *x0, int bend, double phi, double *x,
+                                         mw_info *info)
+{
+    mwi_along_tangent(m, s, phi0, x0, phi, x);
+    MW_CALL(m, set_phi)(s, phi);
+    return mwi_contracted(m, s, x, info) && mwi_is_of(m, s, bend, x);
+}
+MW_BY_TABLE static inline int mwi_go_on(const mw_model *m, double *s, double *kept, double phi, double *x, mw_info *info)
+{
+    double *last = kept + MWI_KEPT + m->nx, at[MW_MAX_UNKNOWNS];
+    if (!(mwi_abs(phi - kept[MWI_LAST_KEPT]) <= MWI_WARM)) return 0;
+    for (int i = 0; i < m->nx; i++)
+        if (!(x[i] == last[i])) return 0;
+    if (!mwi_stride(m, s, kept[MWI_LAST_KEPT], x, (int)kept[MWI_BEND_KEPT], phi, at, info)) return 0;
+    mwi_settle(m, s, at);
+    kept[MWI_LAST_KEPT] = phi;
+    mwi_copy(last, at, m->nx);
+    mwi_copy(x, at, m->nx);
+    return 1;
+}
+#endif
+
+#if !defined(MWI_REFINE_H) && !defined(MW_DEVICE_ONLY)
+#define MWI_REFINE_H
 static inline int mwi_judge(const mw_model *m, const double *s, const double *x, mw_info *info)
 {
     double o[MW_MAX_OBSERVATION];
@@ -8651,7 +8875,7 @@ static inline int mwi_refine(const mw_model *m, const double *s, double *x, mw_i
 }
 #endif
 
-#ifndef MWI_ARCLENGTH_H
+#if !defined(MWI_ARCLENGTH_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_ARCLENGTH_H
 enum { MWI_ARC_N = MW_MAX_UNKNOWNS + 1, MWI_ARC_MAX_CORRECTIONS = 15, MWI_ARC_MAX_SPLITS = 10 };
 static const double MWI_ARC_DONE = 1e-12, MWI_ARC_ENOUGH = 1e-8;
@@ -8757,10 +8981,10 @@ static inline size_t mwi_arclength(const mw_model *m, double *s, double phi0, co
 }
 #endif
 
-#ifndef MWI_BRANCH_H
+#if !defined(MWI_BRANCH_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_BRANCH_H
 enum { MWI_MAX_SPLITS = 12, MWI_ARC_STEPS = 32, MWI_ARC_PARTS = 16 };
-static const double MWI_STRIDE = 0.5, MWI_BRANCH_WIDTH = 0.25;
+static const double MWI_STRIDE = 0.5;
 static const int MWI_USUAL_ITERATIONS = 4;
 static const double MWI_ARC_STEP = 0.1;
 static const double MWI_NUDGE = 1e-3;
@@ -8808,18 +9032,6 @@ static inline void mwi_predict(const mwi_history *h, double phi, int n, double *
         x[j] = 0.0;
         for (int i = 0; i < h->count; i++) x[j] += weight[i] * h->x[i][j];
     }
-}
-static inline int mwi_near(const mw_model *m, const double *s, const double *a, const double *b, double sizes)
-{
-    double scale[MW_MAX_UNKNOWNS];
-    m->scale(s, scale);
-    for (int i = 0; i < m->nx; i++)
-        if (!(mwi_abs(a[i] - b[i]) <= sizes * scale[i])) return 0;
-    return 1;
-}
-static inline int mwi_bend_of(const mw_contact *c)
-{
-    return c->line ? 0 : c->curvature_min * c->curvature_max > 0.0 ? 1 : -1;
 }
 static inline int mwi_bend(const mw_model *m, const double *s, const double *x)
 {
@@ -8939,7 +9151,7 @@ static inline int mwi_walk(const mw_model *m, const mwi_history *h, double phi, 
 }
 #endif
 
-#ifndef MWI_START_H
+#if !defined(MWI_START_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_START_H
 enum { MWI_MAX_ATTEMPTS = 100 };
 static const double MWI_SMALLEST_STEP = 1e-8, MWI_SMALLEST_LOOK = 1.0 / 64.0;
@@ -9026,7 +9238,7 @@ static inline int mwi_start(const mw_model *m, const double *p, double phi, doub
 }
 #endif
 
-#ifndef MWI_SEARCH_H
+#if !defined(MWI_SEARCH_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_SEARCH_H
 enum { MWI_SEARCH_MAX_TOUCH = 20, MWI_SEARCH_MAX_RIDGE = 12, MWI_SEARCH_SECTIONS = 24 };
 static const double MWI_SEARCH_ALONG[] = { 0.0, -0.8, 0.8, -1.6, 1.6, -2.4 };
@@ -9036,16 +9248,6 @@ static const double MWI_SEARCH_REACH_ALONG = 1.5 * 2.4, MWI_SEARCH_REACH_ACROSS 
 static const double MWI_SEARCH_SHORT = 0.7, MWI_SEARCH_CLOSE = 1e-9, MWI_SEARCH_FAR = 1e6, MWI_SEARCH_RANK = 1e-12;
 static const double MWI_SEARCH_RIDGE_DONE = 1e-6, MWI_SEARCH_RIDGE_NUDGE = 1e-3, MWI_SEARCH_RIDGE_STEP = 0.25;
 static const double MWI_SEARCH_SAME_ANGLE = 1e-11;
-typedef enum mwi_worth { MWI_IMPOSSIBLE, MWI_BEYOND_LIMITS, MWI_ON_BOTH_FLANKS, MWI_OF_A_LINE } mwi_worth;
-static inline mwi_worth mwi_worth_in(const mw_model *m, const mw_contact *c)
-{
-    const char *flag;
-    if (c->line) return MWI_OF_A_LINE;
-    if (!(c->curvature_min > 0.0)) return MWI_IMPOSSIBLE;
-    for (int bit = 0; c->flags >> bit && (flag = mwi_flag(m, bit)) != NULL; bit++)
-        if ((c->flags >> bit & 1u) && mwi_impossible(flag)) return MWI_IMPOSSIBLE;
-    return c->flags ? MWI_BEYOND_LIMITS : MWI_ON_BOTH_FLANKS;
-}
 static inline mwi_worth mwi_worth_of(const mw_model *m, const double *s, const double *x)
 {
     double o[MW_MAX_OBSERVATION];
@@ -9170,18 +9372,14 @@ static inline int mwi_search(const mw_model *m, const double *s, double *x, mw_i
 }
 #endif
 
-#ifndef MWI_CHOICE_H
+#if !defined(MWI_CHOICE_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_CHOICE_H
 enum { MWI_DOUBLINGS = 10 };
 static const double MWI_FIRST = 1.0 / 64.0;
 static const double MWI_STATION = 0.25;
 static const double MWI_FAR = 1.0;
 static const double MWI_HALF_A_TURN = 3.141592653589793;
-static const double MWI_BESIDE = 1e-5;
-enum { MWI_STRIDE_STEPS = 6, MWI_MAX_STRIDES = 4 };
-static const double MWI_CONTRACTION = 0.1;
-static const double MWI_GRID = 1e-8;
-static const double MWI_NO_FURTHER = 1e-7;
+enum { MWI_MAX_STRIDES = 4 };
 typedef struct mwi_pair {
     const mw_model *m;
     const double *p;
@@ -9194,10 +9392,6 @@ static inline void mwi_begin_walk(mwi_pair *t)
 {
     t->station = t->ended = 0;
     t->walked = t->reference;
-}
-static inline double mwi_reference_of(const mw_model *m, const double *p)
-{
-    return m->reference < 0 ? 0.0 : p[m->reference];
 }
 static inline double mwi_reference_angle(const mwi_pair *t)
 {
@@ -9285,50 +9479,6 @@ static inline int mwi_by_walk(mwi_pair *t, double phi, double *x, mw_info *info)
     mwi_search(t->m, t->s, x, info);
     return 0;
 }
-static inline void mwi_along_tangent(const mw_model *m, double *s, double phi, const double *x, double to, double *predicted)
-{
-    mwi_copy(predicted, x, m->nx);
-    m->set_phi(s, phi + MWI_BESIDE);
-    m->step(s, predicted);
-    for (int i = 0; i < m->nx; i++) predicted[i] = x[i] + (predicted[i] - x[i]) * ((to - phi) / MWI_BESIDE);
-}
-static inline int mwi_contracted(const mw_model *m, const double *s, double *x, mw_info *info)
-{
-    double longest = MWI_BRANCH_WIDTH;
-    *info = mwi_ended(MW_CONVERGED, 0);
-    for (info->iterations = 1; info->iterations <= MWI_STRIDE_STEPS; info->iterations++) {
-        info->step = m->step(s, x);
-        if (info->step < MWI_FUSED_TOLERANCE) return mwi_within_bounds(m, x);
-        if (!(info->step <= longest)) return 0;
-        longest = MWI_CONTRACTION * info->step;
-    }
-    return 0;
-}
-static inline int mwi_is_of(const mw_model *m, const double *s, int bend, const double *x)
-{
-    double o[MW_MAX_OBSERVATION];
-    mw_contact c;
-    mwi_contact_at(m, s, x, o, &c);
-    return mwi_bend_of(&c) == bend && mwi_touch(m, x, o) >= 0 && mwi_worth_in(m, &c) != MWI_IMPOSSIBLE;
-}
-static inline void mwi_settle(const mw_model *m, const double *s, double *x)
-{
-    double at[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
-    m->scale(s, scale);
-    for (int i = 0; i < m->nx; i++) {
-        const double much = MWI_TO_INTEGER * (MWI_GRID * scale[i]);
-        at[i] = (x[i] + much) - much;
-    }
-    m->step(s, at);
-    if (m->step(s, at) < MWI_FUSED_TOLERANCE && mwi_near(m, s, at, x, MWI_NO_FURTHER)) mwi_copy(x, at, m->nx);
-}
-static inline int mwi_stride(const mw_model *m, double *s, double phi0, const double *x0, int bend, double phi, double *x,
-                             mw_info *info)
-{
-    mwi_along_tangent(m, s, phi0, x0, phi, x);
-    m->set_phi(s, phi);
-    return mwi_contracted(m, s, x, info) && mwi_is_of(m, s, bend, x);
-}
 static inline int mwi_strode(mwi_pair *t, double phi, double *x, mw_info *info)
 {
     const double first = t->reference.phi[0];
@@ -9402,54 +9552,8 @@ static inline int mwi_solve(const mw_model *m, const double *p, double phi, doub
 }
 #endif
 
-#ifndef MWI_REDUCE_H
-#define MWI_REDUCE_H
-static const double MWI_TURN = 6.283185307179586;
-static const double MWI_TURN_MIDDLE = 2.4492935982947064e-16;
-static const double MWI_TURN_LAST = -5.989539619436679e-33;
-static const double MWI_HALVES = 134217729.0;
-static inline double mwi_upper_half(double a)
-{
-    const double c = MWI_HALVES * a;
-    return c - (c - a);
-}
-static inline double mwi_product(double a, double b, double *rest)
-{
-    const double product = a * b, a1 = mwi_upper_half(a), b1 = mwi_upper_half(b), a2 = a - a1, b2 = b - b1;
-    *rest = ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2;
-    return product;
-}
-static inline double mwi_less_pitches(double teeth, double phi, double pair)
-{
-    double turned_rest, pitches_rest, middle_rest;
-    const double turned = mwi_product(phi, teeth, &turned_rest), pitches = mwi_product(pair, MWI_TURN, &pitches_rest);
-    const double middle = mwi_product(pair, MWI_TURN_MIDDLE, &middle_rest);
-    const double above = (turned - pitches) + (turned_rest - pitches_rest);
-    return ((above - middle) - (middle_rest + pair * MWI_TURN_LAST)) / teeth;
-}
-static inline double mwi_reduce(double teeth, double reference, double phi, double *pair)
-{
-    const double pitch = MWI_TURN / teeth;
-    double angle = *pair = NAN, beyond = 1.0;
-    if (!(mwi_abs(phi) <= MW_MAX_ANGLE) || !(teeth >= 1.0)) return NAN;
-    *pair = ((phi - reference) / pitch + MWI_TO_INTEGER) - MWI_TO_INTEGER;
-    for (int k = 0; k < 3 && beyond != 0.0; k++) {
-        angle = mwi_less_pitches(teeth, phi, *pair);
-        beyond = angle - reference < -0.5 * pitch ? -1.0 : angle - reference >= 0.5 * pitch ? 1.0 : 0.0;
-        if (k < 2) *pair += beyond;
-    }
-    return angle;
-}
-#endif
-
-#ifndef MWI_FOLLOW_H
-#define MWI_FOLLOW_H
-static const double MWI_WARM = 0.25;
-enum { MWI_REFERENCE_KEPT, MWI_LAST_KEPT, MWI_BEND_KEPT, MWI_KEPT };
-static inline int mwi_has_memory(const mw_model *m)
-{
-    return m->memory >= 0 && m->ns - m->np - m->memory >= MWI_KEPT + 2 * m->nx;
-}
+#if !defined(MWI_COLD_H) && !defined(MW_DEVICE_ONLY)
+#define MWI_COLD_H
 static inline int mwi_recall(mwi_pair *t, const double *kept)
 {
     const int nx = t->m->nx;
@@ -9475,40 +9579,37 @@ static inline void mwi_keep(const mwi_pair *t, double *kept, double last, const 
     mwi_copy(kept + MWI_KEPT, t->at_reference, nx);
     mwi_copy(kept + MWI_KEPT + nx, x, nx);
 }
-static inline int mwi_go_on(const mw_model *m, double *s, double *kept, double phi, double *x, mw_info *info)
+static inline void mwi_anew(const mw_model *m, const double *p, double angle, double *s, double *kept, double *work, double *x, mw_info *info)
 {
-    double *last = kept + MWI_KEPT + m->nx, at[MW_MAX_UNKNOWNS];
-    if (!(mwi_abs(phi - kept[MWI_LAST_KEPT]) <= MWI_WARM)) return 0;
-    for (int i = 0; i < m->nx; i++)
-        if (!(x[i] == last[i])) return 0;
-    if (!mwi_stride(m, s, kept[MWI_LAST_KEPT], x, (int)kept[MWI_BEND_KEPT], phi, at, info)) return 0;
-    mwi_settle(m, s, at);
-    kept[MWI_LAST_KEPT] = phi;
-    mwi_copy(last, at, m->nx);
-    mwi_copy(x, at, m->nx);
-    return 1;
+    mwi_pair t;
+    if (!kept) {
+        mwi_solve(m, p, angle, s, work, x, info);
+        return;
+    }
+    t.m = m, t.p = p, t.s = s, t.work = work;
+    *info = mwi_ended(MW_BAD_INPUT, mwi_recall(&t, kept));
+    if (!info->guard) mwi_keep(&t, kept, mwi_solved(&t, angle, x, info) ? angle : NAN, x);
+    m->set_phi(s, angle);
 }
-static inline double mwi_own_angle(const mw_model *m, const double *p, double phi, double *pair)
-{
-    return mwi_reduce(p[m->teeth], mwi_reference_of(m, p), phi, pair);
-}
-static inline int mwi_follow_at(const mw_model *m, const double *p, double angle, double *s, double *work, double *x, mw_info *info)
+#endif
+
+#ifndef MWI_FOLLOW_H
+#define MWI_FOLLOW_H
+MW_BY_TABLE static inline int mwi_follow_at(const mw_model *m, const double *p, double angle, double *s, double *work, double *x, mw_info *info)
 {
     double *const kept = mwi_has_memory(m) ? s + m->memory : NULL;
     const int warm = kept && mwi_go_on(m, s, kept, angle, x, info);
-    if (!kept) mwi_solve(m, p, angle, s, work, x, info);
-    else if (!warm) {
-        mwi_pair t;
-        t.m = m, t.p = p, t.s = s, t.work = work;
-        *info = mwi_ended(MW_BAD_INPUT, mwi_recall(&t, kept));
-        if (!info->guard) mwi_keep(&t, kept, mwi_solved(&t, angle, x, info) ? angle : NAN, x);
-        m->set_phi(s, angle);
-    }
+#ifdef MW_DEVICE_ONLY
+    (void)p, (void)work;
+    if (!warm) *info = mwi_ended(MW_DIVERGED, 0);
+#else
+    if (!warm) mwi_anew(m, p, angle, s, kept, work, x, info);
+#endif
     info->cold = !warm;
     for (int i = 0; i < m->nx && info->status < 0; i++) x[i] = NAN;
     return info->status;
 }
-static inline int mwi_follow(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
+MW_BY_TABLE static inline int mwi_follow(const mw_model *m, const double *p, double phi, double *s, double *work, double *x, mw_info *info)
 {
     double pair;
     const double angle = mwi_own_angle(m, p, phi, &pair);
@@ -9520,7 +9621,7 @@ static inline int mwi_follow(const mw_model *m, const double *p, double phi, dou
 }
 #endif
 
-#ifndef MWI_CYCLE_H
+#if !defined(MWI_CYCLE_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_CYCLE_H
 enum { MWI_PLACES = 16 };
 enum { MWI_LOOKS_A_PITCH = 16, MWI_LOOKS = 8 * MWI_LOOKS_A_PITCH, MWI_HALVINGS = 60 };
@@ -9751,7 +9852,7 @@ static inline int mwi_cycle(const mw_model *m, double *c, double phi, mw_cycle *
 }
 #endif
 
-#ifndef MWI_SELF_TEST_H
+#if !defined(MWI_SELF_TEST_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_SELF_TEST_H
 enum { MWI_SOUND, MWI_CONTRACTS, MWI_EXCEEDS, MWI_REORDERS, MWI_INVERTS, MWI_FLUSHES, MWI_NO_NAN, MWI_WRONG_ROOT, MWI_WRONG_CONTACT };
 static inline int mwi_unsound(void)
@@ -9777,6 +9878,7 @@ static inline int mwi_finds(const mw_model *m, const double *p, double phi, cons
 }
 #endif
 
+#ifndef MW_DEVICE_ONLY
 /* Complete a design: p[face_worm_NP] with open numbers NaN, in mm and rad; info may be NULL. Rules and defaults, then what the
  * design leaves to equations of its own. Returns 0, or 1 + k where face_worm_model.systems[k] has no solution. Where the design
  * lacks keys nothing is solved: face_worm_setup then names them, and info->guard is what it returns. */
@@ -9802,18 +9904,21 @@ static inline int face_worm_solve(double *s, double phi, double *x, mw_info *inf
     return mwi_solve(&face_worm_model, p, phi, s, work, x, record);
 }
 
+#endif
+
 /* The tooth pair whose reference angle is the nearest to input angle phi, rad: *pair is its number, and the result its own
  * angle, phi less so many pitches, exact to the last digit for |phi| up to MW_MAX_ANGLE, beyond which both are not a number.
  * Pair k runs as pair 0 does, k pitches later: at phi its contact is that of pair 0 at this angle, the wheel k of its pitches on. */
-static inline double face_worm_reduce(const double *s, double phi, double *pair)
+MW_DEVICE static inline double face_worm_reduce(const double *s, double phi, double *pair)
 {
-    return mwi_own_angle(&face_worm_model, s + (face_worm_NS - face_worm_NP), phi, pair);
+    const double *const p = s + (face_worm_NS - face_worm_NP);
+    return mwi_reduce(p[face_worm_TEETH], face_worm_REFERENCE < 0 ? 0.0 : p[face_worm_REFERENCE], phi, pair);
 }
 
 /* The contact of the pair of face_worm_reduce at input angle phi, for a drive that turns on: s from face_worm_setup; x in: the result
  * of the call before, which is where this one begins if it is near, or not a number; x out: as of face_worm_solve at info->angle,
  * whatever was asked before, and s set up for that angle. info->pair is the pair's number. Returns info->status. */
-static inline int face_worm_follow(double *s, double phi, double *x, mw_info *info)
+MW_BY_TABLE static inline int face_worm_follow(double *s, double phi, double *x, mw_info *info)
 {
     double p[face_worm_NP], work[face_worm_NP];
     mw_info unused;
@@ -9822,6 +9927,7 @@ static inline int face_worm_follow(double *s, double phi, double *x, mw_info *in
     return mwi_follow(&face_worm_model, p, phi, s, work, x, record);
 }
 
+#ifndef MW_DEVICE_ONLY
 /* Numbers that a drive of many pairs and two flanks keeps. */
 enum { face_worm_NC = MWI_SIDES + 2 * (MWI_STATE + face_worm_NS + MWI_PLACES * (1 + face_worm_NX)) };
 
@@ -9859,14 +9965,17 @@ static inline int face_worm_self_test(void)
     return unsound ? unsound : mwi_finds(&face_worm_model, face_worm_sample, face_worm_sample_angle, face_worm_sample_contact, s, work, x);
 }
 
+#endif
+
 /* Contact geometry at a solution x of face_worm_solve or face_worm_follow, s as it left it; o[face_worm_NO] as of face_worm_observe. face_worm_flags has the
  * names of contact->flags. Returns MW_CONVERGED or MW_LINE_CONTACT, or why x is no contact. */
-static inline int face_worm_geometry(const double *s, const double *x, double *o, mw_contact *contact)
+MW_BY_TABLE static inline int face_worm_geometry(const double *s, const double *x, double *o, mw_contact *contact)
 {
     const int kind = mwi_contact_at(&face_worm_model, s, x, o, contact), touch = mwi_touch(&face_worm_model, x, o);
     return touch < 0 ? touch : kind;
 }
 
+#ifndef MW_DEVICE_ONLY
 /* Name of a flag by the number of its bit, 0 for the lowest, not by contact->flags, in which several are set at once; NULL where
  * there is none. The margins of a contact are flagged where they are negative. */
 static inline const char *face_worm_flag(int bit)
@@ -9890,6 +9999,7 @@ static inline const char *face_worm_status_text(int status)
 {
     return mwi_status_text(status);
 }
+#endif
 
 #if defined(__GNUC__) && !defined(__clang__) && defined(__FMA__)
 #pragma GCC pop_options

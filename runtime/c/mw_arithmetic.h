@@ -3,7 +3,9 @@
 #ifndef MW_ARITHMETIC
 #define MW_ARITHMETIC
 
+#ifndef MW_DEVICE_ONLY
 #include <float.h>
+#endif
 
 /* Options that change results are refused where a macro shows them; X_self_test finds the others. Who defines
  * MW_ANY_ARITHMETIC takes what comes. */

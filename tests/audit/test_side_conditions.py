@@ -31,7 +31,7 @@ def scheduled(drive):
 
 def functions_in(header, prefix):
     """Name without prefix → text of each function of a generated header."""
-    start = rf"^(?:static inline|MW_INLINE) [\w ]+?\*?(?:MW_LANE_NAME\()?{prefix}_(\w+)\)?\("
+    start = rf"^(?:MW_DEVICE )?(?:static inline|MW_INLINE) [\w ]+?\*?(?:MW_LANE_NAME\()?{prefix}_(\w+)\)?\("
     parts = re.split(start, header, flags=re.MULTILINE)
     return {name: text.partition("\n}\n")[0] for name, text in zip(parts[1::2], parts[2::2], strict=True)}
 

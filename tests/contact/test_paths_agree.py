@@ -50,7 +50,7 @@ def _by_header(drive, angle, start):
     """The contact near ``start`` by ``solve`` of the drive's header alone: the entry for CasADi calls it."""
     name = drive.design.description["name"]
     solve = casadi.external(f"{name}_contact", str(SHIPPED / f"{name}.so"))
-    return np.asarray(solve(drive.design.parameters, angle, start)).ravel()
+    return np.asarray(solve(drive.design.parameters, angle, start)[0]).ravel()
 
 
 def _alone(drive, angle):
@@ -73,9 +73,13 @@ def test_every_path_of_evaluation_finds_the_same_contact(name):
             assert (ended >= 0) == good[k]
             assert ended >= 0 or (ended == status[k] and np.isnan(own).all() and np.isnan(x[k]).all())
             assert ended < 0 or np.abs((own - x[k]) / scale[k]).max() < 1e-9
+        flags = drive.tca(angles).flags
         for k in np.flatnonzero(good)[:3]:
-            near = x[k] + 1e-4 * generator.normal(size=len(x[k]))
-            assert np.abs((_by_header(drive, angles[k], near) - x[k]) / scale[k]).max() < 1e-8
+            near = _by_header(drive, angles[k], x[k] + 1e-4 * generator.normal(size=len(x[k])))
+            if {"interference", "spurious_sheet"}.intersection(flags[k]):
+                assert np.isnan(near).all()
+            else:
+                assert np.abs((near - x[k]) / scale[k]).max() < 1e-8
         shuffled = generator.permutation(angles)
         result = drive.tca(shuffled)
         order = np.argsort(shuffled)

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from meshwright import Drive
-from meshwright.base.library import SHIPPED
+from meshwright.base.library import SHIPPED, library
+from meshwright.contact import analysis
 from meshwright.design.design import given_vector
 from meshwright.sensitivity import sensitivity
 
@@ -29,7 +30,7 @@ def _contact(drive, keys):
     start = casadi.MX.sym("start", len(drive.design.description["unknowns"]))
     given[_places(drive, keys)] = v
     p = _external(drive, "complete")(given)
-    return casadi.Function("contact", [v, phi, start], [_external(drive, "contact")(p, phi, start)])
+    return casadi.Function("contact", [v, phi, start], [_external(drive, "contact")(p, phi, start)[0]])
 
 
 def _given_keys(drive):
@@ -43,7 +44,7 @@ def test_completed_designs_and_contacts_are_those_of_the_library(name):
     drive = Drive.load(name).with_(misalignment={"center_distance_mm": 0.02} if "worm" not in name else {})
     p = np.array(_external(drive, "complete")(given_vector(drive.design))).ravel()
     assert np.array_equal(p, drive.design.parameters, equal_nan=True)
-    x = np.array(_external(drive, "contact")(p, PHI, drive.trace([PHI])[0][0] + 1e-4)).ravel()
+    x = np.array(_external(drive, "contact")(p, PHI, drive.trace([PHI])[0][0] + 1e-4)[0]).ravel()
     assert x == pytest.approx(drive.trace([PHI])[0][0], abs=1e-11)
 
 
@@ -72,6 +73,59 @@ def test_a_design_that_cannot_be_completed_is_an_error_of_the_call():
     given[_places(drive, ["design.offset_mm"])] = 1.0
     with pytest.raises(RuntimeError, match="face_worm_complete"):
         _external(drive, "complete")(given)
+
+
+def _contact_of(drive):
+    names = [*analysis.flag_names(drive.model), "other_branch"]
+
+    def solved(phi, start):
+        x, status, flags = _external(drive, "contact")(drive.design.parameters, phi, start)
+        return np.array(x).ravel(), int(status), {n for n, f in zip(names, np.array(flags).ravel(), strict=True) if f}
+
+    return solved
+
+
+@pytest.mark.parametrize(
+    ("start", "flag"), [([4.8, 0.0, 4.8, 0.0, 0.0], "interference"), ([4.8, -7.0, 4.8, -7.0, 0.0], "other_branch")]
+)
+def test_a_start_that_leads_into_the_bodies_or_to_the_next_tooth_is_refused(start, flag):
+    x, _, flags = _contact_of(Drive.load("recess-action-full"))(7.0, start)
+    assert np.isnan(x).all()
+    assert flag in flags
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_starts_from_anywhere_end_in_the_contact_of_the_pair_or_in_a_reason(name):
+    drive, generator = Drive.load(name), np.random.default_rng(3)
+    solved, ends = _contact_of(drive), set()
+    for phi in generator.uniform(-1.5, 1.5, 40) * min(drive.pitch(), 1.0):
+        own = drive.trace([phi])[0][0]
+        x, status, flags = solved(phi, own + generator.normal(size=len(own)) * generator.choice([1e-3, 1.0]))
+        ends.add(np.isfinite(x).all())
+        if np.isfinite(x).all():
+            assert status >= 0 and not {"interference", "spurious_sheet", "other_branch"} & flags
+            assert x == pytest.approx(own, abs=1e-7)
+        else:
+            assert np.isnan(x).all() and (status < 0 or {"interference", "spurious_sheet", "other_branch"} & flags)
+    assert ends == {True, False}
+
+
+def test_what_is_no_contact_has_no_derivatives():
+    drive = Drive.load("recess-action-full")
+    phi = casadi.MX.sym("phi")
+    x, status, flags = _external(drive, "contact")(drive.design.parameters, phi, [4.8, 0.0, 4.8, 0.0, 0.0])
+    slopes = casadi.Function("slopes", [phi], [casadi.jacobian(each, phi) for each in (x, status, flags)])
+    by_angle, *others = map(np.array, slopes(7.0))
+    assert np.isnan(by_angle).all()
+    assert not any(other.any() for other in others)
+
+
+def test_a_design_that_is_none_has_no_contact():
+    drive = Drive.load("recess-action-full")
+    p = drive.design.parameters.copy()
+    p[_places(drive, ["design.normal_module_mm"])] = -1.0
+    x, status, _ = _external(drive, "contact")(p, PHI, np.zeros(5))
+    assert np.isnan(np.array(x)).all() and int(status) == library().MW_BAD_INPUT
 
 
 @pytest.mark.parametrize(

@@ -22,7 +22,8 @@ SOLVED = {
     for (int k = 0; k < X_NP; k++) p[k] = s[X_NS - X_NP + k];
     return mwi_solve(&X_model, p, phi, s, work, x, record);""",
     "reduce": """
-    return mwi_own_angle(&X_model, s + (X_NS - X_NP), phi, pair);""",
+    const double *const p = s + (X_NS - X_NP);
+    return mwi_reduce(p[X_TEETH], X_REFERENCE < 0 ? 0.0 : p[X_REFERENCE], phi, pair);""",
     "follow": """
     double p[X_NP], work[X_NP];
     mw_info unused;

@@ -41,7 +41,7 @@ class Drive:
         return self.functions[name]
 
     def _read(self, name: str) -> Function:
-        signature = rf"static inline \w+ {self.prefix}_{name}\([^)]*\)\n{{\n(.*?)\n}}"
+        signature = rf"(?:MW_DEVICE )?static inline \w+ {self.prefix}_{name}\([^)]*\)\n{{\n(.*?)\n}}"
         found = re.search(signature, self.text, re.DOTALL)
         require(found, f"the header has no function {name}")
         before = self.text[self.text.rfind("\n}\n", 0, found.start()) + 1 : found.start()]

@@ -108,7 +108,7 @@ def read_header(text: str, lanes: str = "", tangents: str = "") -> Header:
         rf"{prefix}_(setup|set_phi|eval|by_anchor|step|along|start_eval|observe|(?:curvature_)?(?:flank|fillet)_\w+)"
     )
     found = {}
-    pattern = rf"((?:/\*(?:[^*]|\*(?!/))*\*/\s)*)static inline \w+ {wanted}\([^)]*\)\n{{\n(.*?)\n}}"
+    pattern = rf"((?:/\*(?:[^*]|\*(?!/))*\*/\s)*)(?:MW_DEVICE )?static inline \w+ {wanted}\([^)]*\)\n{{\n(.*?)\n}}"
     for match in re.finditer(pattern, text, re.DOTALL):
         table = {
             name: (int(at), int(size or 1))

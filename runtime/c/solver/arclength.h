@@ -1,5 +1,5 @@
 /* Follow a branch of contact in arclength, through folds and past crossings.  SPDX-License-Identifier: MIT-0 */
-#ifndef MWI_ARCLENGTH_H
+#if !defined(MWI_ARCLENGTH_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_ARCLENGTH_H
 
 #include "linear.h"

@@ -2,18 +2,22 @@
 #ifndef MWI_BASICS_H
 #define MWI_BASICS_H
 
-#include <math.h>
-#include <stddef.h>
+#include "../mw_device.h"
 #include "../mw_arithmetic.h"
 #include "../mw_model.h"
 #include "../mw_status.h"
 
-static inline double mwi_abs(double a)
+/* A function of a drive: of its table or, on a device, which has none, of the only drive there. */
+#ifndef MW_CALL
+#define MW_CALL(m, function) (m)->function
+#endif
+
+MW_DEVICE static inline double mwi_abs(double a)
 {
     return a < 0.0 ? -a : a;
 }
 
-static inline double mwi_larger(double a, double b)
+MW_DEVICE static inline double mwi_larger(double a, double b)
 {
     return a > b ? a : b;
 }
@@ -21,24 +25,24 @@ static inline double mwi_larger(double a, double b)
 /* Added and taken off again it rounds a number below 2^51 to an integer. */
 static const double MWI_TO_INTEGER = 6755399441055744.0;
 
-static inline void mwi_copy(double *to, const double *from, int n)
+MW_DEVICE static inline void mwi_copy(double *to, const double *from, int n)
 {
     for (int i = 0; i < n; i++) to[i] = from[i];
 }
 
-static inline void mwi_clear(double *a, int n)
+MW_DEVICE static inline void mwi_clear(double *a, int n)
 {
     for (int i = 0; i < n; i++) a[i] = 0.0;
 }
 
-static inline int mwi_same_text(const char *a, const char *b)
+MW_DEVICE static inline int mwi_same_text(const char *a, const char *b)
 {
     while (*a && *a == *b) a++, b++;
     return *a == *b;
 }
 
 /* The record of what ended like this before a first step. */
-static inline mw_info mwi_ended(int status, int guard)
+MW_DEVICE static inline mw_info mwi_ended(int status, int guard)
 {
     mw_info info;
     info.status = status;
@@ -49,6 +53,7 @@ static inline mw_info mwi_ended(int status, int guard)
     return info;
 }
 
+#ifndef MW_DEVICE_ONLY
 static inline const char *mwi_status_word(int status)
 {
     switch (status) {
@@ -83,5 +88,7 @@ static inline int mwi_angle_in_range(double phi)
 {
     return mwi_abs(phi) <= (double)MW_MAX_TURN; /* not-a-number is not */
 }
+
+#endif
 
 #endif

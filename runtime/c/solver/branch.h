@@ -1,5 +1,5 @@
 /* Follow one branch of contact over the input angle.  SPDX-License-Identifier: MIT-0 */
-#ifndef MWI_BRANCH_H
+#if !defined(MWI_BRANCH_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_BRANCH_H
 
 #include "refine.h"
@@ -8,10 +8,9 @@
 
 enum { MWI_MAX_SPLITS = 12, MWI_ARC_STEPS = 32, MWI_ARC_PARTS = 16 };
 
-/* In natural sizes of the unknowns: the longest step of a walk, and how far from its prediction a solution may lie and
- * still be of the branch. Flanks change over a natural size (a module, a radian), so a step of half of one is predicted
- * to a good part of it. */
-static const double MWI_STRIDE = 0.5, MWI_BRANCH_WIDTH = 0.25;
+/* The longest step of a walk, in natural sizes of the unknowns. Flanks change over one (a module, a radian), so a step of half
+ * of one is predicted to a good part of it. */
+static const double MWI_STRIDE = 0.5;
 
 /* Newton from a good prediction takes two or three steps. One that needs more crosses a place where the equations are
  * nearly singular, and only there can it come out on another branch. */
@@ -71,23 +70,6 @@ static inline void mwi_predict(const mwi_history *h, double phi, int n, double *
         x[j] = 0.0;
         for (int i = 0; i < h->count; i++) x[j] += weight[i] * h->x[i][j];
     }
-}
-
-/* Whether a and b lie within so many natural sizes of each other. */
-static inline int mwi_near(const mw_model *m, const double *s, const double *a, const double *b, double sizes)
-{
-    double scale[MW_MAX_UNKNOWNS];
-    m->scale(s, scale);
-    for (int i = 0; i < m->nx; i++)
-        if (!(mwi_abs(a[i] - b[i]) <= sizes * scale[i])) return 0;
-    return 1;
-}
-
-/* Sign of the relative Gaussian curvature, 0 along a line of contact. Along a branch it changes only where the equations
- * are singular, or a flank is: of solutions that differ in it one is of another branch, or beyond such a place. */
-static inline int mwi_bend_of(const mw_contact *c)
-{
-    return c->line ? 0 : c->curvature_min * c->curvature_max > 0.0 ? 1 : -1;
 }
 
 static inline int mwi_bend(const mw_model *m, const double *s, const double *x)

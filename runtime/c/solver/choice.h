@@ -1,5 +1,5 @@
 /* The contact of a tooth pair at one angle: the rule is "Which contact" in meshwright.h.  SPDX-License-Identifier: MIT-0 */
-#ifndef MWI_CHOICE_H
+#if !defined(MWI_CHOICE_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_CHOICE_H
 
 #include "branch.h"
@@ -17,17 +17,8 @@ static const double MWI_STATION = 0.25; /* rad */
 static const double MWI_FAR = 1.0;
 static const double MWI_HALF_A_TURN = 3.141592653589793;
 
-/* From a point of a branch so far on, rad, one Newton step is the tangent's, to as many digits as a prediction needs. */
-static const double MWI_BESIDE = 1e-5;
-
-/* A stride along a branch: no more Newton steps, each a tenth of the one before. So many strides at most. */
-enum { MWI_STRIDE_STEPS = 6, MWI_MAX_STRIDES = 4 };
-static const double MWI_CONTRACTION = 0.1;
-
-/* Solutions are made the same, to the last bit, wherever Newton's method came from: rounded to this part of a natural size, then
- * two steps, the second of which is round-off. */
-static const double MWI_GRID = 1e-8;
-static const double MWI_NO_FURTHER = 1e-7;
+/* Strides of one attempt to reach an angle, at most. */
+enum { MWI_MAX_STRIDES = 4 };
 
 /* A tooth pair and the branch of its reference, walked along stations at equal spacing from it, so that every angle is
  * reached by the same steps whichever angles are asked for. p[np] complete; s[ns] and work[np] are written. The newest of
@@ -47,12 +38,6 @@ static inline void mwi_begin_walk(mwi_pair *t)
 {
     t->station = t->ended = 0;
     t->walked = t->reference;
-}
-
-/* Where the pair meets in the middle of its flanks. */
-static inline double mwi_reference_of(const mw_model *m, const double *p)
-{
-    return m->reference < 0 ? 0.0 : p[m->reference];
 }
 
 static inline double mwi_reference_angle(const mwi_pair *t)
@@ -155,59 +140,6 @@ static inline int mwi_by_walk(mwi_pair *t, double phi, double *x, mw_info *info)
     t->m->set_phi(t->s, phi);
     mwi_search(t->m, t->s, x, info);
     return 0;
-}
-
-/* The tangent of the branch at its point x at phi: predicted[nx] is the point of it at `to`. */
-static inline void mwi_along_tangent(const mw_model *m, double *s, double phi, const double *x, double to, double *predicted)
-{
-    mwi_copy(predicted, x, m->nx);
-    m->set_phi(s, phi + MWI_BESIDE);
-    m->step(s, predicted);
-    for (int i = 0; i < m->nx; i++) predicted[i] = x[i] + (predicted[i] - x[i]) * ((to - phi) / MWI_BESIDE);
-}
-
-/* Newton's method from x where its first step is no longer than MWI_BRANCH_WIDTH and each further one a tenth. */
-static inline int mwi_contracted(const mw_model *m, const double *s, double *x, mw_info *info)
-{
-    double longest = MWI_BRANCH_WIDTH;
-    *info = mwi_ended(MW_CONVERGED, 0);
-    for (info->iterations = 1; info->iterations <= MWI_STRIDE_STEPS; info->iterations++) {
-        info->step = m->step(s, x);
-        if (info->step < MWI_FUSED_TOLERANCE) return mwi_within_bounds(m, x);
-        if (!(info->step <= longest)) return 0;
-        longest = MWI_CONTRACTION * info->step;
-    }
-    return 0;
-}
-
-/* Whether x is a contact that bodies can make, on a branch of this sign of curvature. */
-static inline int mwi_is_of(const mw_model *m, const double *s, int bend, const double *x)
-{
-    double o[MW_MAX_OBSERVATION];
-    mw_contact c;
-    mwi_contact_at(m, s, x, o, &c);
-    return mwi_bend_of(&c) == bend && mwi_touch(m, x, o) >= 0 && mwi_worth_in(m, &c) != MWI_IMPOSSIBLE;
-}
-
-static inline void mwi_settle(const mw_model *m, const double *s, double *x)
-{
-    double at[MW_MAX_UNKNOWNS], scale[MW_MAX_UNKNOWNS];
-    m->scale(s, scale);
-    for (int i = 0; i < m->nx; i++) {
-        const double much = MWI_TO_INTEGER * (MWI_GRID * scale[i]);
-        at[i] = (x[i] + much) - much;
-    }
-    m->step(s, at);
-    if (m->step(s, at) < MWI_FUSED_TOLERANCE && mwi_near(m, s, at, x, MWI_NO_FURTHER)) mwi_copy(x, at, m->nx);
-}
-
-/* From the point x0 at phi0 of a branch with this sign of curvature to that at phi. Returns 0 where that does not serve. */
-static inline int mwi_stride(const mw_model *m, double *s, double phi0, const double *x0, int bend, double phi, double *x,
-                             mw_info *info)
-{
-    mwi_along_tangent(m, s, phi0, x0, phi, x);
-    m->set_phi(s, phi);
-    return mwi_contracted(m, s, x, info) && mwi_is_of(m, s, bend, x);
 }
 
 /* The point of the branch at phi in as few strides from the reference as serve. Returns 0 where so many do not. */

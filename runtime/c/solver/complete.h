@@ -1,5 +1,5 @@
 /* Complete a design: rules and defaults, then the systems that place its tools.  SPDX-License-Identifier: MIT-0 */
-#ifndef MWI_COMPLETE_H
+#if !defined(MWI_COMPLETE_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_COMPLETE_H
 
 #include "newton.h"

@@ -7,13 +7,13 @@
 /* Relative curvature below this share of the larger one is zero to round-off. */
 static const double MWI_LINE_SHARE = 1e-10;
 
-static inline double mwi_dot(const double *a, const double *b)
+MW_DEVICE static inline double mwi_dot(const double *a, const double *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /* Direction of the smaller eigenvalue of the gap's second form K (11, 12, 22) in an orthonormal basis e[6]: major[3]. */
-static inline void mwi_major_direction(const double *K, const double *e, double *major)
+MW_DEVICE static inline void mwi_major_direction(const double *K, const double *e, double *major)
 {
     const double half = 0.5 * (K[0] - K[2]), radius = sqrt(half * half + K[1] * K[1]);
     const double u = half > 0.0 ? -K[1] : half - radius;
@@ -22,7 +22,7 @@ static inline void mwi_major_direction(const double *K, const double *e, double 
     for (int i = 0; i < 3; i++) major[i] = length > 0.0 ? (u * e[i] + v * e[3 + i]) / length : e[i];
 }
 
-static inline unsigned mwi_flags_of(const mw_model *m, const double *o, double curvature_min, int line)
+MW_BY_TABLE static inline unsigned mwi_flags_of(const mw_model *m, const double *o, double curvature_min, int line)
 {
     unsigned flags = 0, bit = 4;
     for (int b = 0; b < 2; b++)
@@ -34,13 +34,13 @@ static inline unsigned mwi_flags_of(const mw_model *m, const double *o, double c
     return flags;
 }
 
-static inline int mwi_impossible(const char *flag)
+MW_DEVICE static inline int mwi_impossible(const char *flag)
 {
     return mwi_same_text(flag, "interference") || mwi_same_text(flag, "spurious_sheet")
            || mwi_same_text(flag, "not_first");
 }
 
-static inline const char *mwi_flag(const mw_model *m, int bit)
+MW_BY_TABLE static inline const char *mwi_flag(const mw_model *m, int bit)
 {
     if (bit < 0) return NULL;
     if (bit == 0) return "undercut";
@@ -51,6 +51,7 @@ static inline const char *mwi_flag(const mw_model *m, int bit)
     return NULL;
 }
 
+#ifndef MW_DEVICE_ONLY
 /* Names of the flags that are set, each once, both members' margins being named alike; returns how many. */
 static inline int mwi_flags(const mw_model *m, unsigned flags, const char **names)
 {
@@ -63,11 +64,12 @@ static inline int mwi_flags(const mw_model *m, unsigned flags, const char **name
     }
     return count;
 }
+#endif
 
 /* Contact geometry at x; o[no] receives the observation. Returns MW_CONVERGED or MW_LINE_CONTACT. */
-static inline int mwi_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c)
+MW_BY_TABLE static inline int mwi_contact_at(const mw_model *m, const double *s, const double *x, double *o, mw_contact *c)
 {
-    m->observe(s, x, o);
+    MW_CALL(m, observe)(s, x, o);
     const double *pinion = o, *wheel = o + 6; /* point and normal of each, fixed frame */
     const double *e = o + m->geometry, *gap = e + 12, *curvature = gap + 3;
     c->distance = c->misfit = 0.0;

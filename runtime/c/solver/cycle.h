@@ -1,5 +1,5 @@
 /* The drive at an input angle: the pair that leads on either flank, and the play between.  SPDX-License-Identifier: MIT-0 */
-#ifndef MWI_CYCLE_H
+#if !defined(MWI_CYCLE_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_CYCLE_H
 
 #include "follow.h"

@@ -1,5 +1,5 @@
 /* Small dense linear algebra.  SPDX-License-Identifier: MIT-0 */
-#ifndef MWI_LINEAR_H
+#if !defined(MWI_LINEAR_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_LINEAR_H
 
 #include "basics.h"

@@ -1,5 +1,5 @@
 /* Newton iterations on one system of equations.  SPDX-License-Identifier: MIT-0 */
-#ifndef MWI_NEWTON_H
+#if !defined(MWI_NEWTON_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_NEWTON_H
 
 #include "linear.h"

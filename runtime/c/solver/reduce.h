@@ -12,7 +12,7 @@ static const double MWI_TURN_LAST = -5.989539619436679e-33;
 /* Times a number it leads to the upper half of its digits. */
 static const double MWI_HALVES = 134217729.0;
 
-static inline double mwi_upper_half(double a)
+MW_DEVICE static inline double mwi_upper_half(double a)
 {
     const double c = MWI_HALVES * a;
     return c - (c - a);
@@ -20,7 +20,7 @@ static inline double mwi_upper_half(double a)
 
 /* a b, and what the rounded product lacks of it (T. J. Dekker, "A floating-point technique for extending the available
  * precision", Numerische Mathematik 18 (1971), section 5). */
-static inline double mwi_product(double a, double b, double *rest)
+MW_DEVICE static inline double mwi_product(double a, double b, double *rest)
 {
     const double product = a * b, a1 = mwi_upper_half(a), b1 = mwi_upper_half(b), a2 = a - a1, b2 = b - b1;
     *rest = ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2;
@@ -28,7 +28,7 @@ static inline double mwi_product(double a, double b, double *rest)
 }
 
 /* phi less `pair` pitches of so many teeth a turn. */
-static inline double mwi_less_pitches(double teeth, double phi, double pair)
+MW_DEVICE static inline double mwi_less_pitches(double teeth, double phi, double pair)
 {
     double turned_rest, pitches_rest, middle_rest;
     const double turned = mwi_product(phi, teeth, &turned_rest), pitches = mwi_product(pair, MWI_TURN, &pitches_rest);
@@ -39,7 +39,7 @@ static inline double mwi_less_pitches(double teeth, double phi, double pair)
 
 /* The angle of the pair whose reference is the nearest, within half a pitch of `reference`; *pair: its number, which is 0
  * at `reference`. Not a number, both, for an angle that is none or beyond MW_MAX_ANGLE. */
-static inline double mwi_reduce(double teeth, double reference, double phi, double *pair)
+MW_DEVICE static inline double mwi_reduce(double teeth, double reference, double phi, double *pair)
 {
     const double pitch = MWI_TURN / teeth;
     double angle = *pair = NAN, beyond = 1.0;
@@ -51,6 +51,17 @@ static inline double mwi_reduce(double teeth, double reference, double phi, doub
         if (k < 2) *pair += beyond;
     }
     return angle;
+}
+
+/* Where a pair meets in the middle of its flanks. */
+MW_BY_TABLE static inline double mwi_reference_of(const mw_model *m, const double *p)
+{
+    return m->reference < 0 ? 0.0 : p[m->reference];
+}
+
+MW_BY_TABLE static inline double mwi_own_angle(const mw_model *m, const double *p, double phi, double *pair)
+{
+    return mwi_reduce(p[m->teeth], mwi_reference_of(m, p), phi, pair);
 }
 
 #endif

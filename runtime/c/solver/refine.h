@@ -1,11 +1,9 @@
 /* From start values to a judged solution.  SPDX-License-Identifier: MIT-0 */
-#ifndef MWI_REFINE_H
+#if !defined(MWI_REFINE_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_REFINE_H
 
 #include "newton.h"
-#include "touch.h"
-
-static const double MWI_FUSED_TOLERANCE = 1e-9;
+#include "warm.h"
 
 /* What a settled iteration is worth. A singular Jacobian at a true contact means line contact if a relative curvature
  * vanishes there. */

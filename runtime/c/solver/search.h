@@ -3,7 +3,7 @@
  * The equations also hold at saddles of the gap, past undercut lines and on spurious sheets. Places spread over the wheel
  * flank are brought onto the pinion flank one by one (position only) and refined, from the middle outwards, until a
  * contact on both flanks is found in which the teeth overlap nowhere on a face as wide as that contact needs. */
-#ifndef MWI_SEARCH_H
+#if !defined(MWI_SEARCH_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_SEARCH_H
 
 #include "start.h"
@@ -28,20 +28,6 @@ static const double MWI_SEARCH_RIDGE_DONE = 1e-6, MWI_SEARCH_RIDGE_NUDGE = 1e-3,
 
 /* Wheel angles nearer than this are one, rad: two contacts of a tooth may share the load exactly. */
 static const double MWI_SEARCH_SAME_ANGLE = 1e-11;
-
-/* What a tangency is worth: bodies cannot make it; they can, beyond a limit of a flank; they can, on both flanks; it is
- * one of a line of them. */
-typedef enum mwi_worth { MWI_IMPOSSIBLE, MWI_BEYOND_LIMITS, MWI_ON_BOTH_FLANKS, MWI_OF_A_LINE } mwi_worth;
-
-static inline mwi_worth mwi_worth_in(const mw_model *m, const mw_contact *c)
-{
-    const char *flag;
-    if (c->line) return MWI_OF_A_LINE;
-    if (!(c->curvature_min > 0.0)) return MWI_IMPOSSIBLE;
-    for (int bit = 0; c->flags >> bit && (flag = mwi_flag(m, bit)) != NULL; bit++)
-        if ((c->flags >> bit & 1u) && mwi_impossible(flag)) return MWI_IMPOSSIBLE;
-    return c->flags ? MWI_BEYOND_LIMITS : MWI_ON_BOTH_FLANKS;
-}
 
 static inline mwi_worth mwi_worth_of(const mw_model *m, const double *s, const double *x)
 {

@@ -1,5 +1,5 @@
 /* Whether the arithmetic of this program is that for which results are promised.  SPDX-License-Identifier: MIT-0 */
-#ifndef MWI_SELF_TEST_H
+#if !defined(MWI_SELF_TEST_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_SELF_TEST_H
 
 #include "choice.h"

@@ -1,5 +1,5 @@
 /* The tangency in the middle of the flanks, from the model's start values.  SPDX-License-Identifier: MIT-0 */
-#ifndef MWI_START_H
+#if !defined(MWI_START_H) && !defined(MW_DEVICE_ONLY)
 #define MWI_START_H
 
 #include "refine.h"

@@ -12,7 +12,7 @@
  * a radian beyond which no round-off is believed, however ill-determined a surface says it is. */
 static const double MWI_ROUNDING = 4096.0 * 2.220446049250313e-16, MWI_BELIEVED = 1e-9;
 
-static inline int mwi_within_bounds(const mw_model *m, const double *x)
+MW_BY_TABLE static inline int mwi_within_bounds(const mw_model *m, const double *x)
 {
     const mw_name *end = m->unknowns + m->nx;
     for (const mw_name *unknown = m->unknowns; unknown < end; unknown++, x++)
@@ -21,13 +21,13 @@ static inline int mwi_within_bounds(const mw_model *m, const double *x)
 }
 
 /* Size of a vector, without a root. */
-static inline double mwi_extent(const double *a)
+MW_DEVICE static inline double mwi_extent(const double *a)
 {
     return mwi_abs(a[0]) + mwi_abs(a[1]) + mwi_abs(a[2]);
 }
 
 /* Size of the terms of a body's point, mm, which moves with its surface parameters x and turns by an angle. */
-static inline double mwi_terms(const mw_body *body, const double *o, const double *place, double angle, const double *x)
+MW_DEVICE static inline double mwi_terms(const mw_body *body, const double *o, const double *place, double angle, const double *x)
 {
     double size = (1.0 + mwi_abs(angle)) * mwi_extent(place);
     for (int i = 0; i < body->parameters; i++) size += mwi_abs(x[body->unknowns[i]]) * mwi_extent(o + body->at + 3 * i);
@@ -35,13 +35,13 @@ static inline double mwi_terms(const mw_body *body, const double *o, const doubl
 }
 
 /* Whether a gap is within the rounding of terms of this size. */
-static inline int mwi_is_rounding(double gap, double size, double unit)
+MW_DEVICE static inline int mwi_is_rounding(double gap, double size, double unit)
 {
     return gap <= MWI_ROUNDING * size && gap <= MWI_BELIEVED * unit;
 }
 
 /* Judge a solution x[nx] by its observation o[no]: MW_CONVERGED where the flanks touch in it, else why they do not. */
-static inline int mwi_touch(const mw_model *m, const double *x, const double *o)
+MW_BY_TABLE static inline int mwi_touch(const mw_model *m, const double *x, const double *o)
 {
     double apart[3], sum[3];
     const double *pinion = o, *wheel = o + 6, *forms = o + m->geometry + 6; /* points and normals; second forms */

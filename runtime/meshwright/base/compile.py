@@ -82,11 +82,11 @@ SOURCES = (*dict.fromkeys(unit for part in PARTS for unit in part.units), *DRIVE
 LIVE_SOURCES = ("exact.h",)
 #: What programs include; generated headers repeat the parts of the solver.
 SOLVER = (
-    "basics", "steps", "linear", "newton", "complete", "contact", "touch", "refine", "start", "arclength", "branch",
-    "search", "choice", "reduce", "follow", "cycle", "self_test",
+    "basics", "steps", "linear", "newton", "complete", "contact", "touch", "reduce", "warm", "refine", "start",
+    "arclength", "branch", "search", "choice", "cold", "follow", "cycle", "self_test",
 )  # fmt: skip
 PUBLIC_HEADERS = (
-    "meshwright.h", "mw_arithmetic.h", "mw_model.h", "mw_status.h", "mw_enclosures.h", "mw_certify.h",
+    "meshwright.h", "mw_device.h", "mw_arithmetic.h", "mw_model.h", "mw_status.h", "mw_enclosures.h", "mw_certify.h",
     *(f"solver/{part}.h" for part in SOLVER),
 )  # fmt: skip
 #: What generated headers repeat beside these.
