@@ -35,7 +35,7 @@ from .refusal import UNREADABLE, Rejected, require
 from .shipped import Runtime, items, without
 from .straight_line import SILENT, body_of, literal_of, parsed, read_header
 
-TABLES = ("mw_arithmetic.h", "mw_model.h", "mw_status.h")
+TABLES = ("mw_device.h", "mw_arithmetic.h", "mw_model.h", "mw_status.h")
 ROOTS = ("complete.h", "cycle.h", "self_test.h")
 ENCLOSURES = ("circular.h", "mw_enclosures.h", "certify/ball.h", "certify/wide.h", "certify/units.h", "certify/lane.h")
 #: What rounding may leave of a number of the sample, of its size or of one.
@@ -75,7 +75,7 @@ class Shipped:
         self.samples = [item for item in found if SAMPLE.fullmatch(item)]
         rest = [item for item in found if item not in taken and item not in self.samples]
         self.before = without(rest, after, "solver")
-        self.frame = Frame(description, len(names), self.observed(), self.messages())
+        self.frame = Frame(description, len(names), self.observed(), self.messages(), self.pose())
 
     def observed(self) -> list[tuple[str, str, int]]:
         """Outputs of the observation, as its comment lists them: name, unit, size."""
@@ -87,6 +87,16 @@ class Shipped:
                 r"^ \* +\d+ (\w+)(?:\[(\d+)\])?(?:, (?!frame)([^,\n]+))?(?:, frame \w+)?$", comment[1], re.M
             )
         ]
+
+    def pose(self) -> list[int]:
+        """Places of the state that a misalignment reaches when it is set up."""
+        setup = read_header(self.text).functions["setup"].definitions
+        keys = enumerate(self.description["keys"])
+        reached = {f"p[{k}]" for k, key in keys if key["table"] == "misalignment"}
+        for name, (_, text) in setup.items():
+            if reached & set(re.findall(r"\w+(?:\[\d+\])?", text)):
+                reached.add(name)
+        return sorted(int(name[2:-1]) for name in reached if name.startswith("s["))
 
     def messages(self) -> list[str]:
         table = re.search(r"_guard_texts\[\] = {\n(.*?)\n};", self.text, re.DOTALL)
@@ -123,8 +133,10 @@ class Shipped:
 
     def check_silence(self) -> None:
         """Lines of the functions that are run which hold no statement."""
-        pattern = rf"\nstatic inline \w+ {self.prefix}_(\w+)\([^)]*\)\n{{\n(.*?)\n}}"
-        for name, body in re.findall(pattern, self.text, re.DOTALL):
+        pattern = rf"\nMW_DEVICE static inline \w+ {self.prefix}_(\w+)\([^)]*\)\n{{\n(.*?)\n}}"
+        functions = re.findall(pattern, self.text, re.DOTALL)
+        require({"setup", *SILENCE} <= {name for name, _ in functions}, "a function is not written as it must be")
+        for name, body in functions:
             lines = [line.strip() for line in re.sub(r" */\*.*?\*/", "", body, flags=re.DOTALL).splitlines()]
             silent = [line for line in lines if SILENT.match(line)]
             if (expected := self.silence_of(name)) is not None:

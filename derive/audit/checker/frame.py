@@ -26,8 +26,6 @@ UNITS = {
 BEGINS = """
 #ifndef MESHWRIGHT_@_H
 #define MESHWRIGHT_@_H
-#include <math.h>
-#include <stddef.h>
 """
 VERSIONS = """
 #if MW_MODEL_ABI != {abi}
@@ -71,13 +69,13 @@ typedef union mw_bits {
 #ifndef MW_SIGN
 #define MW_SIGN(a) ((a) < 0.0 ? -1.0 : 1.0)
 #endif
-MW_INLINE void X_sincos(double a, double *sine, double *cosine);
-MW_INLINE void X_near_sincos(double a, double *sine, double *cosine, const double *at, double *away);
-MW_CALLED void X_seldom_sincos(double a, double *sine, double *cosine)
+MW_DEVICE MW_INLINE void X_sincos(double a, double *sine, double *cosine);
+MW_DEVICE MW_INLINE void X_near_sincos(double a, double *sine, double *cosine, const double *at, double *away);
+MW_DEVICE MW_CALLED void X_seldom_sincos(double a, double *sine, double *cosine)
 {
     X_sincos(a, sine, cosine);
 }
-MW_INLINE double X_atan2(double y, double x);
+MW_DEVICE MW_INLINE double X_atan2(double y, double x);
 #if defined(__GNUC__) && !defined(__clang__) && defined(__FMA__)
 #pragma GCC push_options
 #pragma GCC optimize("no-tree-slp-vectorize", "schedule-insns", "sched-pressure")
@@ -95,62 +93,74 @@ OFTEN = """
 #endif
 """
 SYSTEM = """
-static inline void Y_guess(const double *q, double *y);
-static inline void Y_scale(const double *q, double *y);
-static inline void Y_eval(const double *q, const double *y, double *R, double *J);
+MW_DEVICE static inline void Y_guess(const double *q, double *y);
+MW_DEVICE static inline void Y_scale(const double *q, double *y);
+MW_DEVICE static inline void Y_eval(const double *q, const double *y, double *R, double *J);
 """
-WATCH = "static inline double Y_watch(const double *q, const double *y);"
+WATCH = "MW_DEVICE static inline double Y_watch(const double *q, const double *y);"
 FILLS = """
-static inline int Y_open(const double *p);
-static inline void Y_fill(const double *y, double *q);
+MW_DEVICE static inline int Y_open(const double *p);
+MW_DEVICE static inline void Y_fill(const double *y, double *q);
 """
 STAGES = """
-static inline int X_missing(const double *p, int otherwise);
-static inline int X_setup(const double *p, double *s);
-static inline void X_set_phi(double *s, double phi);
-static inline void X_eval(const double *s, const double *x, double *R, double *J);
-static inline double X_step(const double *s, double *x);
-static inline double X_by_anchor(const double *s, const double *at, double phi, const double *x, double *R);
+MW_DEVICE static inline int X_missing(const double *p, int otherwise);
+MW_DEVICE static inline int X_setup(const double *p, double *s);
+MW_DEVICE static inline void X_set_phi(double *s, double phi);
+MW_DEVICE static inline void X_eval(const double *s, const double *x, double *R, double *J);
+MW_DEVICE static inline double X_step(const double *s, double *x);
+MW_DEVICE static inline double X_by_anchor(const double *s, const double *at, double phi, const double *x, double *R);
 """
 PATHS = """
-static inline void X_anchor(const double *s, double phi, const double *x, double *at);
-static inline void X_along(const double *s, double phi, const double *x, const double *v, double *d1, double *d2);
-static inline void X_guess(const double *s, double *y);
-static inline void X_start_scale(const double *s, double *y);
-static inline void X_start_eval(const double *s, const double *y, double *R, double *J);
-static inline void X_start_solution(const double *s, const double *y, double *x);
-static inline void X_scale(const double *s, double *x);
+MW_DEVICE static inline void X_anchor(const double *s, double phi, const double *x, double *at);
+MW_DEVICE static inline void X_along(const double *s, double phi, const double *x, const double *v, double *d1, double *d2);
+MW_DEVICE static inline void X_guess(const double *s, double *y);
+MW_DEVICE static inline void X_start_scale(const double *s, double *y);
+MW_DEVICE static inline void X_start_eval(const double *s, const double *y, double *R, double *J);
+MW_DEVICE static inline void X_start_solution(const double *s, const double *y, double *x);
+MW_DEVICE static inline void X_scale(const double *s, double *x);
 """
-SURFACE = "static inline void X_{name}(const double *s, const double *q, double *o);"
+SURFACE = "MW_DEVICE static inline void X_{name}(const double *s, const double *q, double *o);"
 MODEL = """
-#ifndef MW_KERNELS
+#if !defined(MW_KERNELS) || defined(MW_DEVICE_ONLY)
+#undef MW_KERNELS
 #define MW_KERNELS NULL
 #endif
-static const mw_model X_model = {{
+MW_TABLE mw_model X_model = {{
     X_ABI, "{name}", "{family}", "{title}", X_SPEC_HASH,
     X_NX, X_NP, X_NS, X_NO, X_ND, X_NSTART, {guards},
-    {error}, {wheel_angle}, {reference}, {teeth}, X_MEMORY, {geometry},
-    X_unknown_names, X_parameter_names, X_size_names,
-    X_output_names, {outputs}, X_output_sizes, X_guard_texts, X_bodies,
-    X_derive, X_size, X_setup, X_set_phi, X_eval, X_step,
-    X_NANCHOR, X_NEAREST, X_anchor, X_by_anchor, X_along,
-    X_guess, X_start_scale, X_start_eval, X_start_solution, X_observe, X_scale,
+    {error}, {wheel_angle}, X_REFERENCE, X_TEETH, X_MEMORY, {geometry},
+    X_unknown_names, MW_HOST(X_parameter_names), MW_HOST(X_size_names),
+    MW_HOST(X_output_names), {outputs}, MW_HOST(X_output_sizes), MW_HOST(X_guard_texts), X_bodies,
+    MW_HOST(X_derive), MW_HOST(X_size), MW_HOST(X_setup), MW_HOST(X_set_phi), MW_HOST(X_eval), MW_HOST(X_step),
+    X_NANCHOR, X_NEAREST, MW_HOST(X_anchor), MW_HOST(X_by_anchor), MW_HOST(X_along),
+    MW_HOST(X_guess), MW_HOST(X_start_scale), MW_HOST(X_start_eval), MW_HOST(X_start_solution), MW_HOST(X_observe),
+    MW_HOST(X_scale),
     {systems}, {regions},
     {functions}, MW_KERNELS
 }};
+#ifdef MW_DEVICE_ONLY
+#ifdef MW_CALL
+#error "with MW_DEVICE_ONLY a translation unit holds one drive: include one header"
+#endif
+#define MW_CALL(m, function) X_##function
+#endif
 """
+ON_HOST = "#ifndef MW_DEVICE_ONLY"
 SIGNATURES = {
     "solve_design": "static inline int X_solve_design(double *p, mw_info *info)",
     "solve": "static inline int X_solve(double *s, double phi, double *x, mw_info *info)",
-    "reduce": "static inline double X_reduce(const double *s, double phi, double *pair)",
-    "follow": "static inline int X_follow(double *s, double phi, double *x, mw_info *info)",
+    "reduce": "MW_DEVICE static inline double X_reduce(const double *s, double phi, double *pair)",
+    "follow": "MW_BY_TABLE static inline int X_follow(double *s, double phi, double *x, mw_info *info)",
     "cycle_setup": "static inline int X_cycle_setup(const double *p, const double *coast, double *c)",
     "cycle": "static inline int X_cycle(double *c, double phi, mw_cycle *out)",
     "self_test": "static inline int X_self_test(void)",
-    "geometry": "static inline int X_geometry(const double *s, const double *x, double *o, mw_contact *contact)",
+    "geometry": "MW_BY_TABLE static inline int X_geometry(const double *s, const double *x, double *o, mw_contact *contact)",
 }
 SPACE = "enum { X_NC = MWI_SIDES + 2 * (MWI_STATE + X_NS + MWI_PLACES * (1 + X_NX)) };"
+#: Functions before which, or after which, what only a host has begins or ends.
+ON_HOST_FROM, ON_HOST_TO = ("solve_design", "cycle_setup"), ("solve", "self_test")
 ENDS = """
+#ifndef MW_DEVICE_ONLY
 static inline const char *X_flag(int bit)
 {
     return mwi_flag(&X_model, bit);
@@ -167,6 +177,7 @@ static inline const char *X_status_text(int status)
 {
     return mwi_status_text(status);
 }
+#endif
 #if defined(__GNUC__) && !defined(__clang__) && defined(__FMA__)
 #pragma GCC pop_options
 #endif
@@ -227,10 +238,20 @@ static inline int X_certify(double *s, mw_ball phi, const double *x, double *e, 
 
 
 class Frame:
-    """The items of one header, from its description, the sizes that its state has, and where its outputs are."""
+    """The items of one header, from its description, how many numbers its state has and which of them a misalignment
+    changes, its outputs, and the messages of its guards.
+    """
 
-    def __init__(self, description: dict, slots: int, outputs: Sequence[tuple[str, str, int]], texts: Sequence[str]):
+    def __init__(
+        self,
+        description: dict,
+        slots: int,
+        outputs: Sequence[tuple[str, str, int]],
+        texts: Sequence[str],
+        pose: Sequence[int],
+    ):
         self.description, self.slots, self.outputs, self.texts = description, slots, outputs, texts
+        self.pose = pose
         self.name = description["name"]
         self.unknowns = [unknown["name"] for unknown in description["contact"]["unknowns"]]
         self.parameters = [key["symbol"]["name"] for key in description["keys"]]
@@ -245,12 +266,12 @@ class Frame:
 
     def _texts(self) -> Iterator[str]:
         description = self.description
-        yield from (ELEMENTARY, SELDOM, "static inline void X_derive(double *p);")
+        yield from (ELEMENTARY, SELDOM, "MW_DEVICE static inline void X_derive(double *p);")
         for system in description["design_systems"]:
             texts = (SYSTEM, WATCH if system["regular"] else "", FILLS)
             yield "".join(texts).replace("Y_", f"X_{system['name']}_")
-        yield from ("static inline void X_size(const double *p, double *d);", OFTEN, STAGES, SELDOM, PATHS, OFTEN)
-        yield from ("static inline void X_observe(const double *s, const double *x, double *o);", SELDOM)
+        yield from ("MW_DEVICE static inline void X_size(const double *p, double *d);", OFTEN, STAGES, SELDOM, PATHS, OFTEN)
+        yield from ("MW_DEVICE static inline void X_observe(const double *s, const double *x, double *o);", SELDOM)
         surfaces = [f"flank_{body['name']}" for body in description["bodies"]]
         surfaces += [f"{region['region']}_{region['member']}" for region in description["regions"]]
         for surface in surfaces:
@@ -262,8 +283,10 @@ class Frame:
         """What follows the solver."""
         text = ""
         for name, body in SOLVED.items():
-            text += SPACE if name == "cycle_setup" else ""
+            text += f"{ON_HOST}\n" if name in ON_HOST_FROM else ""
+            text += f"{SPACE}\n" if name == "cycle_setup" else ""
             text += f"{SIGNATURES[name]}\n{{{body}\n}}\n"
+            text += "#endif\n" if name in ON_HOST_TO else ""
         return items(self.named(text + ENDS))
 
     def certify(self, slots: int, instant: int) -> list[str]:
@@ -323,6 +346,10 @@ class Frame:
         yield f"#define X_NSTART {len(description['start']['unknowns'])}"
         yield f"#define X_NFLAGS {2 + margins}"
         signs = [k for k, key in enumerate(description["keys"]) if key["table"] == "flank"]
+        reference, keys = description["contact"]["reference_angle"], [key["key"] for key in description["keys"]]
+        require(reference == 0 or reference in self.parameters, "the reference angle is neither 0 nor a parameter")
+        yield f"#define X_REFERENCE ({-1 if reference == 0 else self.parameters.index(reference)})"
+        yield f"#define X_TEETH {keys.index(description['pinion_teeth'])}"
         yield f"#define X_OTHER_FLANK {-1 if description['flanks_apart'] or not signs else signs[0]}"
 
     def indices(self) -> Iterator[str]:
@@ -340,6 +367,7 @@ class Frame:
     def tables(self) -> Iterator[str]:
         description = self.description
         yield listed("unknown_names", (row(u, "", "", 1) for u in description["contact"]["unknowns"]))
+        yield ON_HOST
         yield listed("parameter_names", map(parameter, description["keys"]))
         sizes = ((entry, *unit_of(entry["key"])) for entry in description["sizes"])
         yield listed("size_names", (
@@ -348,6 +376,8 @@ class Frame:
         yield listed("output_names", (named(name, unit, "", "", "", 1) for name, unit, _ in self.outputs))
         yield f"static const int X_output_sizes[] = {{ {', '.join(str(size) for *_, size in self.outputs)} }};"
         yield f"static const char *const X_guard_texts[] = {{ {', '.join(map(quoted, self.texts))}, }};"
+        yield f"static const int X_POSE[] = {{ {', '.join(map(str, self.pose))} }};"
+        yield "#endif"
 
     def bodies(self) -> Iterator[str]:
         rows = ""
@@ -355,22 +385,23 @@ class Frame:
             name, surface = body["name"], body["surface"]
             own = [self.unknowns.index(q["name"]) for q in surface["parameters"]]
             margins, conditions = body["margins"], len(surface["conditions"])
-            yield f"static const int X_{name}_unknowns[] = {{ {', '.join(map(str, own))} }};"
+            yield f"MW_TABLE int X_{name}_unknowns[] = {{ {', '.join(map(str, own))} }};"
             for key in ("flag", "event"):
                 words = "".join(f"{quoted(margin[key])}, " for margin in margins)
-                yield f"static const char *const X_{name}_{key}s[] = {{ {words}NULL }};"
+                yield f"MW_TABLE char *const X_{name}_{key}s[] = {{ {words}NULL }};"
             tangents = self.places[f"tangent_{surface['parameters'][0]['name']}"]
             regular = self.places[f"regular_{name}"]
             size = 6 + 3 * len(own) + 1 + len(margins) + conditions * (1 + len(own))
             rows += (
                 f"{{ {quoted(name)}, {len(own)}, {conditions}, {self.places[f'point_{name}']}, {tangents}, {regular}, "
                 f"{regular + 1}, {len(margins)}, X_{name}_unknowns, X_{name}_flags, X_{name}_events, {size}, "
-                f"X_flank_{name}, X_curvature_flank_{name} }}, "
+                f"MW_HOST(X_flank_{name}), MW_HOST(X_curvature_flank_{name}) }}, "
             )
-        yield f"static const mw_body X_bodies[] = {{ {rows}}};"
+        yield f"MW_TABLE mw_body X_bodies[] = {{ {rows}}};"
 
     def lists(self) -> Iterator[str]:
         description = self.description
+        yield ON_HOST
         if description["design_systems"]:
             rows = ""
             for system in description["design_systems"]:
@@ -394,14 +425,12 @@ class Frame:
             yield f"static const mw_region X_regions[] = {{ {rows}}};"
         rows = "".join(f"{{ {quoted(name)}, {taken}, {given}, X_{name} }}, " for name, taken, given in self.offered())
         yield f"static const mw_function X_functions[] = {{ {rows}}};"
+        yield "#endif"
 
     def model(self) -> str:
         description = self.description
-        reference = description["contact"]["reference_angle"]
-        require(reference == 0 or reference in self.parameters, "the reference angle is neither 0 nor a parameter")
-
         def list_of(key: str, name: str) -> str:
-            return f"{len(description[key])}, {f'X_{name}' if description[key] else 'NULL'}"
+            return f"{len(description[key])}, {f'MW_HOST(X_{name})' if description[key] else 'NULL'}"
 
         return MODEL.format(
             name=self.name,
@@ -410,13 +439,11 @@ class Frame:
             guards=sum(1 for text in self.texts if not text.endswith((ALONE, TOGETHER))),
             error=self.unknowns.index(description["contact"]["error"]),
             wheel_angle=self.places["wheel_angle"],
-            reference=-1 if reference == 0 else self.parameters.index(reference),
-            teeth=[key["key"] for key in description["keys"]].index(description["pinion_teeth"]),
             geometry=self.places["tangent_basis"],
             outputs=len(self.outputs),
             systems=list_of("design_systems", "systems"),
             regions=list_of("regions", "regions"),
-            functions=f"{len(list(self.offered()))}, X_functions",
+            functions=f"{len(list(self.offered()))}, MW_HOST(X_functions)",
         )
 
 
@@ -442,7 +469,7 @@ def quoted(text: str) -> str:
 
 
 def listed(name: str, rows: Iterator[str]) -> str:
-    return f"static const mw_name X_{name}[] = {{ {''.join(f'{entry}, ' for entry in rows)}}};"
+    return f"MW_TABLE mw_name X_{name}[] = {{ {''.join(f'{entry}, ' for entry in rows)}}};"
 
 
 def named(name: str, unit: str, meaning: str, key: str, table: str, factor: object, domain: Sequence = (None, None)):
