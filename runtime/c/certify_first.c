@@ -13,6 +13,7 @@
  * search turns with the wheel, so that its points stay; parts of the pinion's flank follow the contact. */
 #define MWC_BALLS
 #define MWC_SHEETS
+#include "certify/first/along.h"
 #include "certify/first/pieces.h"
 #include "kernels.h"
 
@@ -226,7 +227,13 @@ static int searched(search *h)
         c->reason = MW_REASON_EFFORT;
         return c->outcome;
     }
-    int verdict = settled(h, h->whole[1], 0, 1, NULL, 0, 0.0, 0);
+    range everywhere[2];
+    for (int i = 0; i < 2; i++) {
+        const range drift = mwc_cube_range(h->drift + i), wheel = h->whole[1][i];
+        everywhere[i].low = wheel.low - drift.high;
+        everywhere[i].high = wheel.high - drift.low;
+    }
+    int verdict = settled(h, everywhere, 0, 1, NULL, 0, 0.0, 0);
     if (verdict == OPEN && h->once.parts > 0) {
         h->once.parts = c->parts;
         *c = h->once;
@@ -239,6 +246,21 @@ static int searched(search *h)
     return c->outcome;
 }
 
+/* How far the wheel may be turned back, rad, where nothing is searched. */
+static const double ALL_ROUND = 0.5;
+
+/* The contact at one angle that a certificate describes. */
+static void pose_at(search *h, mw_wide phi, const mw_certificate *contact)
+{
+    h->at.phi = mwc_sheet_of_wide(phi);
+    h->at.wheel_angle = mwc_sheet_of_ball(contact->wheel_angle);
+    for (int i = 0; i < h->model->nx; i++) h->at.x[i] = mwc_sheet_of_wide(contact->x[i]);
+    for (int i = 0; i < 3; i++) {
+        h->at.point[i] = mwc_sheet_of_ball(contact->point[i]);
+        h->at.normal[i] = mwc_sheet_of_ball(contact->normal[i]);
+    }
+}
+
 int mw_certify_first(const mw_model *m, const mw_wide *s, mw_wide phi, const mw_certificate *contact, const double *flanks,
                      double slack, double reach, int effort, double *work, mw_first_certificate *c)
 {
@@ -246,13 +268,7 @@ int mw_certify_first(const mw_model *m, const mw_wide *s, mw_wide phi, const mw_
     int known = contact->flags ? MW_REASON_OFF_FLANK : MW_REASON_NONE;
     if (contact->outcome != MW_UNIQUE) known = contact->reason == MW_REASON_NONE ? MW_REASON_CONTACT : contact->reason;
     if (begun(m, known, s, flanks, slack, reach, effort, work, c) != MW_REASON_NONE) return c->outcome;
-    h->at.phi = mwc_sheet_of_wide(phi);
-    h->at.wheel_angle = mwc_sheet_of_ball(contact->wheel_angle);
-    for (int i = 0; i < m->nx; i++) h->at.x[i] = mwc_sheet_of_wide(contact->x[i]);
-    for (int i = 0; i < 3; i++) {
-        h->at.point[i] = mwc_sheet_of_ball(contact->point[i]);
-        h->at.normal[i] = mwc_sheet_of_ball(contact->normal[i]);
-    }
+    pose_at(h, phi, contact);
     return searched(h);
 }
 
@@ -301,4 +317,72 @@ int mw_certify_first_along(const mw_model *m, const mw_wide *s, const mw_piece *
     searched(h);
     if (c->wheel[0] == c->wheel[0]) *angle = 0.5 * from + 0.5 * to + h->share * (0.5 * to - 0.5 * from);
     return c->outcome;
+}
+
+/* Begin to enclose how far the flanks stand apart. Returns a reason. */
+static int line_begun(const mw_model *m, int known, const mw_wide *s, const double *flanks, double *work, mw_line_certificate *c)
+{
+    mw_first_certificate looked;
+    memset(c, 0, sizeof *c);
+    c->outcome = MW_UNKNOWN;
+    c->apart[0] = c->nearest = c->limit[0] = HUGE_VAL;
+    c->apart[1] = c->limit[1] = -HUGE_VAL;
+    return c->reason = begun(m, known, s, flanks, 0.5 * ALL_ROUND, ALL_ROUND, 1, work, &looked);
+}
+
+/* Enclose it along a curve q, of the contact that is set; depth: of halvings that are made already. */
+static int line_enclosed(search *h, const mwc_sheet *q, double fine, int depth, mw_line_certificate *c)
+{
+    set_angle(h, h->at.phi);
+    c->reason = place_bodies(h);
+    if (c->reason != MW_REASON_NONE) return c->outcome;
+    for (int i = 0; i < 2; i++) {
+        h->follow[i] = h->at.x[h->model->bodies[0].unknowns[i]];
+        h->follow[i].radius = 0.0;
+    }
+    look_at(h);
+    if (all_along(h, q, fine, depth, c)) c->outcome = MW_UNIQUE;
+    else c->reason = MW_REASON_EFFORT;
+    return c->outcome;
+}
+
+int mw_certify_line(const mw_model *m, const mw_wide *s, mw_wide phi, const mw_certificate *pose, const double *flanks,
+                    const double *curve, double fine, double *work, mw_line_certificate *c)
+{
+    search *h = (search *)work;
+    mwc_sheet q[4];
+    if (line_begun(m, MW_REASON_NONE, s, flanks, work, c) != MW_REASON_NONE) return c->outcome;
+    pose_at(h, phi, pose);
+    for (int i = 0; i < 4; i++) {
+        q[i] = number(curve[MW_CURVE_TERMS * i]);
+        q[i].across = MWC_DEGREE;
+        for (int k = 1; k < MW_CURVE_TERMS; k++) q[i].c[mwc_cube_at(k, 0, 0)] = curve[MW_CURVE_TERMS * i + k];
+    }
+    return line_enclosed(h, q, fine, 0, c);
+}
+
+int mw_certify_first_followed(const mw_model *m, const mw_wide *s, const mw_piece *piece, const double *flanks, double slack,
+                              double reach, int effort, double *work, mw_first_certificate *c)
+{
+    search *h = (search *)work;
+    const mw_wide still = { 0.0, 0.0, 0.0 };
+    if (begun(m, MW_REASON_NONE, s, flanks, slack, reach, effort, work, c) != MW_REASON_NONE) return c->outcome;
+    set_contact(h, piece, piece->centre - piece->half, piece->centre + piece->half, still, still);
+    for (int i = 0; i < 2; i++) {
+        h->drift[i] = h->at.x[m->bodies[1].unknowns[i]];
+        h->drift[i].c[0] = h->drift[i].radius = 0.0;
+    }
+    return searched(h);
+}
+
+int mw_certify_line_along(const mw_model *m, const mw_wide *s, const mw_piece *piece, const double *flanks, double fine, double *work,
+                          mw_line_certificate *c)
+{
+    search *h = (search *)work;
+    const mw_wide still = { 0.0, 0.0, 0.0 };
+    mwc_sheet q[4];
+    if (line_begun(m, MW_REASON_NONE, s, flanks, work, c) != MW_REASON_NONE) return c->outcome;
+    set_contact(h, piece, piece->centre - piece->half, piece->centre + piece->half, still, still);
+    for (int i = 0; i < 4; i++) q[i] = h->at.x[m->bodies[i < 2].unknowns[i % 2]];
+    return line_enclosed(h, q, fine, DEEPEST_STRETCH, c);
 }

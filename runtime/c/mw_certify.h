@@ -167,6 +167,31 @@ int mw_certify_first_along(const mw_model *m, const mw_wide *s, const mw_piece *
                            mw_wide wheel_turn, const double *flanks, double slack, double reach, int effort, double *work,
                            mw_first_certificate *c, double *angle);
 
+/* A curve along which flanks touch, or nearly: how far they stand apart along it with the wheel at an angle. apart: bounds,
+ * rad of the wheel, negative where they overlap; nearest: somewhere on it they stand apart by no more than this; limit:
+ * bounds of the smallest limit of both flanks, in the units of their limits: above 0 the curve surely lies on both, below 0
+ * surely beyond one. parts: of the curve that were looked at. */
+typedef struct mw_line_certificate {
+    int outcome, reason, parts;
+    double apart[2], nearest, limit[2];
+} mw_line_certificate;
+
+enum { MW_CURVE_TERMS = 5 };
+
+/* Enclose them. pose: a certificate that has the wheel's angle, and a point and the normal there by which sides are told;
+ * curve[4 * MW_CURVE_TERMS]: polynomials over [-1, 1] of the wheel's two parameters and, nearly, of the pinion's that meet
+ * them. flanks, work: as of mw_certify_first. fine: rad within which each part is told. Returns MW_UNIQUE or MW_UNKNOWN. */
+int mw_certify_line(const mw_model *m, const mw_wide *s, mw_wide phi, const mw_certificate *pose, const double *flanks,
+                    const double *curve, double fine, double *work, mw_line_certificate *c);
+
+/* Both of one place of the flanks at every input angle of a piece, whose polynomials, of whatever path, say where it is: the
+ * wheel's parameters and error as they are, the pinion's nearly those that meet it. Parts of either flank follow it, so that
+ * flanks may touch all along a line. */
+int mw_certify_first_followed(const mw_model *m, const mw_wide *s, const mw_piece *piece, const double *flanks, double slack,
+                              double reach, int effort, double *work, mw_first_certificate *c);
+int mw_certify_line_along(const mw_model *m, const mw_wide *s, const mw_piece *piece, const double *flanks, double fine, double *work,
+                          mw_line_certificate *c);
+
 /* What proves many contacts of a drive that is built into this library; NULL for any other. */
 const struct mw_proofs *mw_proofs_of(const mw_model *m);
 

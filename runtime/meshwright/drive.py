@@ -260,6 +260,16 @@ class Drive:
         result = self.tca(angles) if result is None else analysis.checked_result(self, result, angles)
         return certify_first(self, result, checked_certificates(self, result, certificates), **how)
 
+    def certify_extremes(self, angles, result=None):
+        """Proofs of where flanks that touch along a line, on an edge or at a corner do at pinion angles (rad), and of
+        the line: :class:`~meshwright.cycle.certified_extreme.Extremes`. ``result``: as of :meth:`certify_first`.
+        """
+        from meshwright.cycle.certified_extreme import enclosed_extremes
+
+        angles = analysis.checked_angles(angles)
+        result = self.tca(angles) if result is None else analysis.checked_result(self, result, angles)
+        return enclosed_extremes(self, result)
+
     def certify_first_path(self, begin, end, **how):
         """The same at every angle from one to another (rad, of the right-hand drive) at once:
         :class:`~meshwright.cycle.certified_first_path.FirstAlongPath`. ``neighbours``: on either side, 1 unless given.

@@ -22,6 +22,7 @@ from meshwright.cycle import room
 from meshwright.cycle.backlash import meaning
 from meshwright.cycle.certified import certified_window
 from meshwright.cycle.certified_cycle import certified_cycle
+from meshwright.cycle.certified_lines import certified_lines
 from meshwright.cycle.ends import event, why_open, without_contact
 from meshwright.cycle.transmission import ROUND_OFF, changes, fourier
 from meshwright.flank.pointed import Pointed, pointed
@@ -57,7 +58,11 @@ def run(options):
             step("proof of the branch")
             window = certified_window(drive, found.mesh.window, _changes(found))
             contents["certificate"] = None if window is None else window.plain(drive.design.mirror.sign)
-        if options.certify and window is not None:
+        if options.certify and window is None:
+            step("proof of the error along lines")
+            lines = certified_lines(drive, found.mesh.window)
+            contents["certificate"] = None if lines is None else lines.plain(drive.design.mirror.sign)
+        elif options.certify:
             step("proof of first contact")
             contents["certificate"]["first_contact"] = _first_contact(found.mesh, window)
     if options.json:
@@ -192,6 +197,9 @@ def _certified(certificate):
     """What is proved of the window, if that was asked for."""
     if certificate is None:
         return
+    if "held_deg" in certificate:
+        yield from _along_lines(certificate)
+        return
     if certificate["gaps"]:
         gap = certificate["gaps"][0]
         low, high = gap["pinion_angle_deg"]
@@ -206,6 +214,25 @@ def _certified(certificate):
     for low, high in certificate["transfer_angles_deg"] or ():
         yield f"certified: pairs change at an angle from {low:.9f}° to {high:.9f}°"
     yield from _first(certificate.get("first_contact"))
+
+
+def _along_lines(certificate):
+    """What is proved of a window of contact along lines."""
+    shown = [at for at in certificate["at_angles"] if at["transmission_error_arcsec"]]
+    lines = [at["contact_line"]["apart_mm"] for at in shown if at["contact_line"] and at["contact_line"]["apart_mm"]]
+    if shown:
+        low, high = (of(at["transmission_error_arcsec"][k] for at in shown) for k, of in enumerate((min, max)))
+        count = f"{len(shown)} of {len(certificate['at_angles'])} angles of the window"
+        yield f"certified: at {count} the pair touches first at an error from {low:.6f} to {high:.6f} arcsec"
+    if lines:
+        most = max(abs(end) for apart in lines for end in apart)
+        yield f"certified: at {len(lines)} of them all along a line, both flanks within {most:.0e} mm of one another"
+    if certificate["held_deg"]:
+        low, high = certificate["transmission_error_arcsec"]
+        yield f"certified: error from {low:.6f} to {high:.6f} arcsec at every angle {_ranges(certificate['held_deg'])}"
+    for reason in dict.fromkeys(gap["reason"] for gap in certificate["gaps"]):
+        left = [gap["pinion_angle_deg"] for gap in certificate["gaps"] if gap["reason"] == reason]
+        yield f"  not shown of every angle {_ranges(left)}: {_why(reason)}"
 
 
 def _why(reason):

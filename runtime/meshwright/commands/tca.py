@@ -17,7 +17,6 @@ from meshwright.commands.progress import progress
 from meshwright.contact.flags import not_first
 from meshwright.contact.friction import efficiency
 from meshwright.contact.velocities import velocities
-from meshwright.cycle.certified_extreme import certificates_of
 from meshwright.cycle.first_contact import Search
 
 #: More directions than this are taken for a mistake.
@@ -94,9 +93,9 @@ def run(options):
         _add_other_contacts(points, drive, result)
     if options.certify:
         firsts = drive.certify_first(result.angles, result, certificates).to_plain(result)
-        others = certificates_of(drive, result)
-        for point, certificate, found, other in zip(points, certificates.to_plain(), firsts, others, strict=True):
-            point["certificate"] = certificate | {"first_contact": found} | other
+        held = drive.certify_extremes(result.angles, result)
+        for k, (point, certificate, found) in enumerate(zip(points, certificates.to_plain(), firsts, strict=True)):
+            point["certificate"] = certificate | {"first_contact": found, "contact_line": None} | held.plain(k)
     proved = options.proof is None or _write_proofs(options, drive, result)
     if options.json:
         document = {"schema": "meshwright.tca/1", "drive": drive.design.family, "design": drive.design.as_solved()}
@@ -104,8 +103,9 @@ def run(options):
     if options.csv:
         write_csv(options.csv, *_columns(points))
     if not options.json and not options.csv:
-        said = f"{_not_aligned(drive, points)}{_enclosed(points)}{certificates.said()}"
-        write_text("-", f"{_table(drive, points)}{said}\n")
+        held = [k for k, p in enumerate(points) if p.get("certificate", {}).get("outcome") == "enclosed"]
+        said = f"{_not_aligned(drive, points)}{_enclosed(points)}{certificates.said(held)}"
+        write_text("-", f"{_table(drive, points)}{said.rstrip()}\n")
     return 0 if result.complete and proved else 1
 
 
@@ -248,7 +248,12 @@ def _enclosed(points):
     radii = [p["certificate"]["radius"] for p in points if p.get("certificate", {}).get("outcome") == "enclosed"]
     if not radii:
         return ""
-    return f"enclosed: the error of {len(radii)} contacts on lines, edges or corners, within {max(radii):.0e} arcsec\n"
+    lines = [p["certificate"]["contact_line"] for p in points if p["certificate"]["contact_line"] is not None]
+    shown = [max(map(abs, line["apart_mm"])) for line in lines if line["outcome"] == "enclosed"]
+    said = f"enclosed: the error of {len(radii)} contacts on lines, edges or corners, within {max(radii):.0e} arcsec\n"
+    if shown:
+        said += f"enclosed: {len(shown)} of {len(lines)} lines, both flanks within {max(shown):.0e} mm all along\n"
+    return said
 
 
 def _out_of_line(drive, points):

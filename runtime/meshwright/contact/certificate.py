@@ -161,16 +161,20 @@ class Certificates(InWords):
         """Names of the flags by which bodies surely cannot make the contact at point k."""
         return [name for name, word in self.flags(k).items() if word == "yes" and impossible(name)]
 
-    def said(self):
-        """In a sentence, how many contacts are certain, and why others are not."""
-        outcomes, errors = self.outcomes, self.error_arcsec()
+    def said(self, without=()):
+        """In a sentence, how many contacts are certain, and why others are not; of all but those at some rows."""
+        left = [k for k in range(len(self.records)) if k not in without]
+        if not left:
+            return ""
+        outcomes, errors = [self.outcomes[k] for k in left], self.error_arcsec()[left]
         shown, total = outcomes.count("unique"), len(outcomes)
-        others = Counter(message for reason, message in zip(self.reasons, self.messages, strict=True) if reason)
+        reasons, messages = self.reasons, self.messages
+        others = Counter(messages[k] for k in left if reasons[k])
         why = "; ".join(f"{message} (at {_angles(count)})" for message, count in others.items())
         if not shown:
             return f"not certified: {why}"
         width = np.nanmax(errors[:, 1] - errors[:, 0]) / 2
-        number = "every contact" if shown == total else f"{shown} of {total} contacts"
+        number = "every contact" if shown == total and not without else f"{shown} of {total} contacts"
         rest = f"; not: {why}" if why else ""
         return f"certified: {number} the only one nearby, transmission error within {width:.0e} arcsec{rest}"
 

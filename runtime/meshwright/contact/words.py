@@ -31,11 +31,15 @@ EVENTS = {
 GAPS = {
     "tube": "the transmission error cannot be enclosed as narrowly as the bounds of a window need",
     "joint": "two pieces of the branch cannot be shown to be one where they meet",
+    "no_line": "the flanks do not touch along a line, or change at an end of it",
+    "elsewhere_first": "another place of the two flanks touches before the line",
 }
 
 #: Outcomes of proofs.
 OUTCOMES = {
     "unique": "proved: the contact exists and is the only one nearby",
+    "enclosed": "proved: the flanks touch first between two errors; of a line: all along it they lie within so much of "
+    "one another",
     "first": "proved: nothing else of the flanks touches before it",
     "unknown": "neither is proved, for the reason that stands beside it: this says nothing against the contact",
 }

@@ -231,7 +231,7 @@ def _constant(mesh, pinion, error):
     drive, pitch = mesh.drive, mesh.drive.pitch()
     angles = mesh.mirror * mesh.middle + np.linspace(-0.5, 0.5, CONSTANT_SAMPLES) * pitch
     contacts = drive.tca(angles)
-    bounds = enclosed_extremes(drive, contacts)
+    bounds = enclosed_extremes(drive, contacts).bounds
     value = float(np.mean(contacts.error))
     off = float(np.max(np.abs(bounds - value)))
     if not math.isfinite(off):

@@ -16,15 +16,29 @@ static void cells_of(const range *box, const range *whole, int side, int *first,
     if (*last < 0) *last = 0;
 }
 
-/* Whether any cell of a part is marked. */
+/* Whether any cell of a part is marked, at whichever angle. */
 static int marked(const search *h, const range *box)
 {
     int first[2], last[2];
-    for (int side = 0; side < 2; side++) cells_of(box, h->whole[1], side, first + side, last + side);
+    range at[2];
+    for (int side = 0; side < 2; side++) {
+        const range drift = mwc_cube_range(h->drift + side);
+        at[side].low = box[side].low + drift.low;
+        at[side].high = box[side].high + drift.high;
+        cells_of(at, h->whole[1], side, first + side, last + side);
+    }
     for (int i = first[0]; i <= last[0]; i++)
         for (int j = first[1]; j <= last[1]; j++)
             if (h->cell[i][j]) return 1;
     return 0;
+}
+
+/* By how much the wheel's places have followed the contact, in one parameter, at a share of the range of angles. */
+static double drifted(const search *h, int parameter, double share)
+{
+    const double at[2] = { 0.0, 0.0 };
+    const line by = line_at(h->drift + parameter, at);
+    return line_value(&by, share).mid;
 }
 
 /* Whether the pinion, where it meets a part of the wheel's flank, is apart from it there. */
@@ -51,7 +65,7 @@ static int looked_at(search *h, const range *box, const place *w, const mwc_shee
         if (!marked(h, there)) return OPEN; /* on another piece */
         for (int i = 0; i < 2; i++) {
             const line q = line_at(at->q + i, o.at);
-            c->wheel[i] = there[i].low;
+            c->wheel[i] = there[i].low + drifted(h, i, o.at[2]);
             c->pinion[i] = line_value(&q, o.at[2]).mid;
         }
         c->apart = o.apart;
@@ -161,6 +175,8 @@ static int settled(search *h, const range *box, int from, int to, const met *of,
     if (++h->found->parts > h->effort || depth > DEEPEST) return left_open(h, box, h->found->parts > h->effort);
     if (!marked(h, box)) return SETTLED;
     over(q, box);
+    for (int i = 0; i < 2; i++)
+        if (h->drift[i].along) mwc_sheet_to_add(q + i, q + i, h->drift + i);
     on_flank(h, 1, q, LIMITS, &w, NULL);
     if (outside(h, 1, &w)) return SETTLED;
     const mwc_sheet square = squared(w.x);

@@ -65,6 +65,7 @@ typedef struct search {
     int margins[2], set[2][MARGINS];          /* limits of each flank and whether the design sets them */
     int enough[2][3];                         /* operations that lead to point, limits and tangents of each flank */
     mwc_sheet follow[2];                      /* the pinion's parameters at the contact */
+    mwc_sheet drift[2];                       /* by how much parts of the wheel's flank follow it, from the middle angle */
     mwc_sheet turn[9], move[3];               /* of the pinion's points, fixed frame, into that of the search */
     mw_ball cosine, sine;                     /* of the wheel's, body frame */
     double sense, slack, reach, view[4];
