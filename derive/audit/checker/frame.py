@@ -108,11 +108,13 @@ MW_DEVICE static inline int X_setup(const double *p, double *s);
 MW_DEVICE static inline void X_set_phi(double *s, double phi);
 MW_DEVICE static inline void X_eval(const double *s, const double *x, double *R, double *J);
 MW_DEVICE static inline double X_step(const double *s, double *x);
-MW_DEVICE static inline double X_by_anchor(const double *s, const double *at, double phi, const double *x, double *R);
+MW_DEVICE static inline double X_by_anchor(const double *s, const double *at, double phi, const double *x,
+                                           double *R);
 """
 PATHS = """
 MW_DEVICE static inline void X_anchor(const double *s, double phi, const double *x, double *at);
-MW_DEVICE static inline void X_along(const double *s, double phi, const double *x, const double *v, double *d1, double *d2);
+MW_DEVICE static inline void X_along(const double *s, double phi, const double *x, const double *v, double *d1,
+                                     double *d2);
 MW_DEVICE static inline void X_guess(const double *s, double *y);
 MW_DEVICE static inline void X_start_scale(const double *s, double *y);
 MW_DEVICE static inline void X_start_eval(const double *s, const double *y, double *R, double *J);
@@ -154,7 +156,8 @@ SIGNATURES = {
     "cycle_setup": "static inline int X_cycle_setup(const double *p, const double *coast, double *c)",
     "cycle": "static inline int X_cycle(double *c, double phi, mw_cycle *out)",
     "self_test": "static inline int X_self_test(void)",
-    "geometry": "MW_BY_TABLE static inline int X_geometry(const double *s, const double *x, double *o, mw_contact *contact)",
+    "geometry": "MW_BY_TABLE static inline int X_geometry(const double *s, const double *x, double *o, "
+    "mw_contact *contact)",
 }
 SPACE = "enum { X_NC = MWI_SIDES + 2 * (MWI_STATE + X_NS + MWI_PLACES * (1 + X_NX)) };"
 #: Functions before which, or after which, what only a host has begins or ends.
@@ -270,8 +273,10 @@ class Frame:
         for system in description["design_systems"]:
             texts = (SYSTEM, WATCH if system["regular"] else "", FILLS)
             yield "".join(texts).replace("Y_", f"X_{system['name']}_")
-        yield from ("MW_DEVICE static inline void X_size(const double *p, double *d);", OFTEN, STAGES, SELDOM, PATHS, OFTEN)
-        yield from ("MW_DEVICE static inline void X_observe(const double *s, const double *x, double *o);", SELDOM)
+        yield "MW_DEVICE static inline void X_size(const double *p, double *d);"
+        yield from (OFTEN, STAGES, SELDOM, PATHS, OFTEN)
+        yield "MW_DEVICE static inline void X_observe(const double *s, const double *x, double *o);"
+        yield SELDOM
         surfaces = [f"flank_{body['name']}" for body in description["bodies"]]
         surfaces += [f"{region['region']}_{region['member']}" for region in description["regions"]]
         for surface in surfaces:

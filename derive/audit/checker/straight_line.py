@@ -193,7 +193,6 @@ def read_body(body: str) -> dict[str, tuple[str, str]]:
             target = statement[1] or statement[3]
             # an argument that is also the result keeps its first value under its own name
             target = f"new {target}" if target.startswith(("x[", "mx[")) else target
-            foreseen(statement[3] or target not in definitions, f"{target} is defined twice")
             definitions[target] = ("expression", statement[2] or statement[4])
     return definitions
 
