@@ -5895,6 +5895,7 @@ MW_BY_TABLE static inline double mwi_own_angle(const mw_model *m, const double *
 #ifndef MWI_CONTACT_H
 #define MWI_CONTACT_H
 static const double MWI_LINE_SHARE = 1e-10;
+static const double MWI_NEARLY_FLAT = 1e-6;
 MW_DEVICE static inline double mwi_dot(const double *a, const double *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -5969,6 +5970,10 @@ MW_BY_TABLE static inline int mwi_contact_at(const mw_model *m, const double *s,
     c->line = mwi_abs(c->curvature_min) <= MWI_LINE_SHARE * mwi_abs(c->curvature_max);
     c->flags = mwi_flags_of(m, o, c->curvature_min, c->line);
     return c->line ? MW_LINE_CONTACT : MW_CONVERGED;
+}
+MW_DEVICE static inline int mwi_nearly_flat(const mw_contact *c)
+{
+    return mwi_abs(c->curvature_min) <= MWI_NEARLY_FLAT * mwi_abs(c->curvature_max);
 }
 #endif
 

@@ -3,6 +3,7 @@
 #include <string.h>
 #include "lanes.h"
 #include "solver/steps.h"
+#include "solver/warm.h"
 
 #define MW_LANE_LOOP _Pragma("omp simd") for (int l = 0; l < MW_LANES; l++)
 
@@ -57,6 +58,22 @@ static void predict(int nx, const double *phi, int uniform, size_t k, double *x)
         for (size_t i = 0; i < count; i++)
             for (int l = 0; l < MW_LANES; l++) x[j + l] += w[i * MW_LANES + (size_t)l] * x[j + l - (int)(i + 1) * size];
     }
+}
+
+/* Point 1 of every lane from point 0 by the tangent there: one point alone predicts itself, from which the first of few angles
+ * are too far. */
+static void predict_by_tangent(const mw_lane_model *k, int nx, double *s, const double *phi, double *x)
+{
+    const size_t size = (size_t)nx * MW_LANES;
+    const double *from = x - size;
+    double beside[MW_LANES], step[MW_LANES];
+    memcpy(x, from, sizeof(double) * size);
+    for (int l = 0; l < MW_LANES; l++) beside[l] = phi[l] + MWI_BESIDE;
+    k->set_phi(s, beside);
+    k->step(s, x, step);
+    for (int j = 0; j < nx * MW_LANES; j += MW_LANES)
+        for (int l = 0; l < MW_LANES; l++)
+            x[j + l] = from[j + l] + (x[j + l] - from[j + l]) * ((phi[MW_LANES + l] - phi[l]) / MWI_BESIDE);
 }
 
 /* Whether the last step is small in every lane. */
@@ -161,6 +178,7 @@ static void follow(const mw_lane_model *k, const mw_model *m, double *s, const d
         for (size_t i = 0, point = first; i < count; i++, point++) {
             double *own = x + i * size;
             if (point == 0) memcpy(own, start, sizeof(double) * size);
+            else if (point == 1) predict_by_tangent(k, nx, s, phi, own);
             else predict(nx, phi, uniform, point, own);
             k->set_phi(s, phi + point * MW_LANES);
             k->step(s, own, step);

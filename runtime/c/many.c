@@ -59,9 +59,6 @@ size_t mw_analyse(const mw_model *m, const double *p, const double *phi, size_t 
     return succeeded;
 }
 
-/* Share of the larger principal curvature of the gap that the smaller one does not reach along a line, or nearly one. */
-static const double NEARLY_FLAT = 1e-6;
-
 void mw_contact_points(const mw_model *m, const double *p, size_t designs, const double *phi, size_t n,
                        const double *x, int *status, double *s, double *o, double *points, unsigned *flags)
 {
@@ -77,7 +74,7 @@ void mw_contact_points(const mw_model *m, const double *p, size_t designs, const
             m->set_phi(s, phi[k]);
             *status = look(m, s, x, *status, o, &c);
             if (*status < 0 || *status == MW_LINE_CONTACT) continue;
-            if (fabs(c.curvature_min) <= NEARLY_FLAT * fabs(c.curvature_max)) *status = MW_CONVERGED_NOISE;
+            if (mwi_nearly_flat(&c)) *status = MW_CONVERGED_NOISE;
             for (int i = 0; i < 3; i++) points[i] = c.point[i];
             *flags = c.flags;
         }

@@ -287,7 +287,7 @@ def test_quantiles_are_those_of_the_samples(tmp_path):
 def test_slices_are_begun_as_others_end(tmp_path, monkeypatch):
     """A sweep of many slices begins at once and can be stopped: it holds none of them ready."""
     monkeypatch.setattr(sweep, "SLICE_POINTS", 11)
-    monkeypatch.setattr(sweep, "write_slice", lambda plan, identity, folder, number, form: begun.append(number))
+    monkeypatch.setattr(sweep, "write_slice", lambda plan, identity, folder, number, *_: begun.append(number))
     begun = []
 
     def stop():

@@ -80,6 +80,8 @@ DRIVE_HEADERS = (
 SOURCES = (*dict.fromkeys(unit for part in PARTS for unit in part.units), *DRIVE_HEADERS)
 #: What the live page's module is compiled from beside a drive's own header: relative to runtime/c.
 LIVE_SOURCES = ("exact.h",)
+#: What a device traces samples by beside a drive's own header: relative to runtime/c.
+DEVICE_SOURCES = ("drive/device.h",)
 #: What programs include; generated headers repeat the parts of the solver.
 SOLVER = (
     "basics", "steps", "linear", "newton", "complete", "contact", "touch", "reduce", "warm", "refine", "start",
@@ -232,7 +234,8 @@ def core(source, folder, objects, target=None):
     """Compile the core library from ``source`` (runtime/c) into ``folder``, and copy what drives are compiled from."""
     target = target or native()
     folder.mkdir(parents=True, exist_ok=True)
-    for names, place in (((*PUBLIC_HEADERS, *REPEATED), "include"), ((*SOURCES, *LIVE_SOURCES), "source")):
+    sources = (*SOURCES, *LIVE_SOURCES, *DEVICE_SOURCES)
+    for names, place in (((*PUBLIC_HEADERS, *REPEATED), "include"), (sources, "source")):
         for name in names:
             _copy(source / name, folder / place / name)
     command = (*target.command, *target.more)

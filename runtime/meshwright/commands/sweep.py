@@ -13,6 +13,7 @@ from meshwright.base.files import write_json, write_text
 from meshwright.commands import options as common
 from meshwright.design import design as designs
 from meshwright.sweep import run as sweep
+from meshwright.sweep.device import DEVICES
 
 _FORMS = "low:high or normal:mean:deviation"
 
@@ -31,6 +32,10 @@ def add_arguments(parser):
     parser.add_argument(
         "--portable", action="store_true", help="rows with the same bits on every machine, at a third of the speed"
     )
+    parser.add_argument(
+        "--device", choices=("cpu", *DEVICES), default="cpu",
+        help="cuda: trace on a GPU; the rows are those of --portable, which it implies",
+    )  # fmt: skip
     parser.add_argument("--threads", type=int, metavar="N", help="default: one a processor")
     parser.add_argument(
         "--scheduler", nargs="?", const="local", metavar="ADDRESS",
@@ -44,7 +49,8 @@ def add_arguments(parser):
 def run(options):
     plan = _plan(options)
     with _Progress(plan.slices) as advance:
-        summary = sweep.run(plan, options.out, options.format, options.threads, options.scheduler, advance)
+        device = options.device if options.device in DEVICES else None
+        summary = sweep.run(plan, options.out, options.format, options.threads, options.scheduler, advance, device)
     if options.json is None and sys.stdout.isatty():
         write_text("-", _table(summary, options.out))
     else:
@@ -74,7 +80,8 @@ def _plan(options):
             raise UsageError(f"--{name} {value}: must be at least 1")
     angles = common.angles_of(options, common.Drive.from_tables(tables))
     variations = tuple(_variation(text) for text in options.vary)
-    how = (options.samples or 0, options.grid or 0, options.seed, options.portable)
+    portable = options.portable or options.device in DEVICES
+    how = (options.samples or 0, options.grid or 0, options.seed, portable)
     return sweep.Plan(tables, variations, tuple(map(float, angles)), *how)
 
 

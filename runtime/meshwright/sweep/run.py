@@ -22,6 +22,7 @@ from meshwright.contact import analysis
 from meshwright.contact.results import ARCSEC, SOLVED, TOUCHING
 from meshwright.design import design as designs
 from meshwright.drive import Drive
+from meshwright.sweep import device as devices
 from meshwright.sweep import samples, slices
 
 #: Points of a slice: enough to keep a core busy, few enough that memory stays small.
@@ -160,19 +161,20 @@ def check(plan):
     return drive
 
 
-def solve(plan, number):
-    """:class:`Rows` of one slice."""
+def solve(plan, number, device=None):
+    """:class:`Rows` of one slice; ``device`` as of :func:`run`."""
     drive, values = check(plan), plan.values(number)
-    found = samples.solve(drive, [v.key for v in plan.variations], values, plan.angles, plan.portable)
+    traced = devices.on_cuda if device == "cuda" else None
+    found = samples.solve(drive, [v.key for v in plan.variations], values, plan.angles, plan.portable, traced)
     sample = number * plan.slice_samples + np.arange(len(values))
     return Rows(sample, values, found.status, found.error, found.points, found.flags)
 
 
-def write_slice(plan, identity, folder, number, form):
+def write_slice(plan, identity, folder, number, form, device=None):
     """Solve a slice and write it, unless it is done."""
     path = _slice(folder, number, form)
     if not slices.done(path, identity, number):
-        slices.write(_columns(plan, solve(plan, number)), path, form, identity, number)
+        slices.write(_columns(plan, solve(plan, number, device)), path, form, identity, number)
 
 
 def _slice(folder, number, form):
@@ -191,14 +193,16 @@ def _columns(plan, rows):
     return columns
 
 
-def run(plan, folder, form="parquet", threads=None, scheduler=None, advance=lambda: None):
+def run(plan, folder, form="parquet", threads=None, scheduler=None, advance=lambda: None, device=None):
     """Write every slice that is not yet there; ``advance`` is called after each. Returns :func:`summary`.
 
     ``scheduler`` is None for threads of this process, "local" for an embedded Dask cluster, or the address of one.
+    ``device`` is "cuda" for a GPU of each process that works on slices, of a plan that is ``portable``.
     Raises :class:`~meshwright.base.errors.UsageError` if the folder holds another sweep.
     """
     drive = check(plan)
     slices.require(form)
+    devices.require(device)
     folder = Path(folder)
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -210,21 +214,22 @@ def run(plan, folder, form="parquet", threads=None, scheduler=None, advance=lamb
         remove_parts(folder)
         try:
             if scheduler is None:
-                _on_threads(plan, identity, folder, form, threads or os.cpu_count(), advance)
+                _on_threads(plan, identity, folder, form, threads or os.cpu_count(), advance, device)
             else:
-                _on_dask(plan, identity, folder.resolve(), form, threads, scheduler, advance)
+                _on_dask(plan, identity, folder.resolve(), form, threads, scheduler, advance, device)
         except OSError as error:
             done = "what is written stays, and the same command goes on from there"
             raise UsageError(f"{folder}: cannot be written ({error.strerror or error}); make room: {done}") from error
         return summary(plan, folder, form)
 
 
-def _on_threads(plan, identity, folder, form, threads, advance):
+def _on_threads(plan, identity, folder, form, threads, advance, device):
     numbers = iter(range(plan.slices))
     with ThreadPoolExecutor(threads) as pool:
         running, free = set(), 2 * threads
         while True:
-            running |= {pool.submit(write_slice, plan, identity, folder, k, form) for k in islice(numbers, free)}
+            more = islice(numbers, free)
+            running |= {pool.submit(write_slice, plan, identity, folder, k, form, device) for k in more}
             if not running:
                 return
             done, running = wait(running, return_when=FIRST_COMPLETED)
@@ -234,14 +239,15 @@ def _on_threads(plan, identity, folder, form, threads, advance):
                 advance()
 
 
-def _on_dask(plan, identity, folder, form, threads, scheduler, advance):
+def _on_dask(plan, identity, folder, form, threads, scheduler, advance, device):
     try:
         from distributed import Client, as_completed
     except ImportError as error:
         raise UsageError("--scheduler needs Dask: pip install 'meshwright[sweep]'") from error
     local = {"n_workers": threads or os.cpu_count(), "threads_per_worker": 1, "dashboard_address": None}
     with Client(**local) if scheduler == "local" else Client(scheduler) as client:
-        work = (client.submit(write_slice, plan, identity, folder, k, form, pure=False) for k in range(plan.slices))
+        task = (plan, identity, folder)
+        work = (client.submit(write_slice, *task, k, form, device, pure=False) for k in range(plan.slices))
         running = as_completed(islice(work, AHEAD))
         for finished in running:
             finished.result()

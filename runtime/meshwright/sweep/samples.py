@@ -4,7 +4,8 @@ What :meth:`~meshwright.drive.Drive.tca` says of a whole tooth pair – its teet
 edge – is asked of the drive of a sample, but only where lanes over the whole batch leave it open.
 """
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -29,7 +30,8 @@ MARGIN = 0.5
 
 @dataclass(frozen=True)
 class Batch:
-    """S samples of a drive: complete parameter vectors (S, np), and the set of lanes that traces them.
+    """S samples of a drive: complete parameter vectors (S, np), and what traces them: a set of lanes, and a device
+    before it, a function such as :func:`meshwright.sweep.device.on_cuda`, or None.
 
     A row of NaN is no design; its points are bad input.
     """
@@ -37,21 +39,31 @@ class Batch:
     drive: Drive
     parameters: np.ndarray
     lanes: object
+    device: Callable | None = None
 
     @classmethod
-    def of(cls, drive, keys, values, portable=False):
+    def of(cls, drive, keys, values, portable=False, device=None):
         """The samples of ``values`` (S, K) of ``keys`` ("table.key"), in the units of the keys."""
-        lanes = library().mw_lanes(PORTABLE_WIDTH if portable else 0)
-        return cls(drive, _parameters(drive, keys, values), lanes)
+        lanes = library().mw_lanes(PORTABLE_WIDTH if portable or device else 0)
+        return cls(drive, _parameters(drive, keys, values), lanes, device)
 
     def only(self, rows):
-        return Batch(self.drive, np.ascontiguousarray(self.parameters[rows]), self.lanes)
+        return replace(self, parameters=np.ascontiguousarray(self.parameters[rows]))
 
     def points(self, angles):
         """:class:`Points` at pinion angles (N,) of the right-hand drive, rad."""
-        m, count, n = _in_lanes(self.drive), len(self.parameters), len(angles)
         angles = np.ascontiguousarray(angles, dtype=float)
         start = np.ascontiguousarray(self.drive.trace(angles[:1])[0])
+        if self.device is None or np.abs(angles).max(initial=0.0) > library().MW_MAX_TURN:
+            return self._in_lanes(angles, start)
+        through, status, flags, error, points = self.device(self.drive, self.parameters, angles, start[0])
+        rest = self.only(~through)._in_lanes(angles, start)
+        for found, of_lanes in ((status, rest.status), (flags, rest.flags), (error, rest.error), (points, rest.points)):
+            found[~through] = of_lanes
+        return Points(status, error, points, flags)
+
+    def _in_lanes(self, angles, start):
+        m, count, n = _in_lanes(self.drive), len(self.parameters), len(angles)
         x, work = np.empty((count, n, m.nx)), np.empty(library().mw_lanes_work(self.lanes, m, n))
         status, flags = np.empty((count, n), dtype=np.int32), np.empty((count, n), dtype=np.uint32)
         library().mw_trace_designs(
@@ -86,11 +98,11 @@ class Points:
         return Points(self.status, mirror.sign * self.error, self.points * mirror.flip, self.flags)
 
 
-def solve(drive, keys, values, angles, portable=False):
+def solve(drive, keys, values, angles, portable=False, device=None):
     """:class:`Points` of the samples ``values`` (S, K) of ``keys`` at pinion angles (N,), rad: as of ``Drive.tca``."""
     mirror = drive.design.mirror
     angles = np.asarray(angles, dtype=float)
-    batch = Batch.of(drive, keys, values, portable)
+    batch = Batch.of(drive, keys, values, portable, device)
     found = batch.points(mirror.sign * angles).mirrored(mirror)
 
     def drive_of(k):
