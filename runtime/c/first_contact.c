@@ -6,10 +6,17 @@
 #include "exact.h"
 #include "first/cover.h"
 #include "first/curve.h"
+#include "first/lasting.h"
 #include "solver/basics.h"
 
 /* Local extremes of the mesh that are refined. */
 enum { STARTS = 12 };
+
+/* A step beside a place by which a curve is seen to be level or not, natural sizes. */
+static const double BESIDE_STEP = 0.05;
+
+/* A search that leaves no more than this open, mm, has left nothing open. */
+static const double RESOLVED = 1e-3 * RESOLUTION;
 
 static int set_up(search *h, const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion,
                   const double *wheel, double turn)
@@ -70,6 +77,16 @@ static void write_place(const search *h, const place *P, const double *pinion, c
         found->point[i] = pinion[4 * i + 3] + dot(pinion + 4 * i, P->point);
         found->normal[i] = dot(pinion + 4 * i, P->normal);
     }
+}
+
+/* A place as the search has it, at the placements of which h is set up. */
+static void from_place(const search *h, const mw_first *at, place *P)
+{
+    memset(P, 0, sizeof *P);
+    P->pinion.p[0] = NAN;
+    memcpy(P->q, at->q_wheel, (size_t)h->nw * sizeof *P->q);
+    memcpy(P->p, at->q_pinion, (size_t)h->nk * sizeof *P->p);
+    P->delta = at->wheel_turn;
 }
 
 int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion,
@@ -136,6 +153,7 @@ int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *me
     const double left = fmax(best.highest, best.floor);
     if (!best.found) return found->status = left > best.least ? MW_DIVERGED : MW_NO_CONTACT;
     found->unresolved = fmax(0.0, (left - best.at.value) * fabs(best.at.lever));
+    found->apart = apart_beside(&h, &best.at, best.active, BESIDE_STEP);
     write_place(&h, &best.at, pinion, best.active, found);
     return found->status;
 }
@@ -145,20 +163,97 @@ size_t mw_first_contact_work(size_t vertices)
     return (vertices * (sizeof(place) + 1) + MIDDLES * sizeof(middle) + sizeof(double) - 1) / sizeof(double);
 }
 
+/* The placements of one angle among many. */
+static int set_up_at(search *h, const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion,
+                     const double *wheel, size_t k, double turn, double sense)
+{
+    if (!set_up(h, m, s, mesh, pinion + 12 * k, wheel + 12 * k, turn)) return 0;
+    h->sense = sense;
+    return 1;
+}
+
+int mw_first_lasts(const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion, const double *wheel,
+                   double share, double turn, double sense, double *const *met, const mw_first *found, double *work)
+{
+    stretch b;
+    place *at[3], leads;
+    int open = 0;
+    if (!mwi_usable(m) || !(share > 0.0 && share < 1.0)) return 0;
+    b.share = share;
+    b.lever = 0.0;
+    b.budget = LASTING_BUDGET;
+    b.nowhere = found[0].status == MW_NO_CONTACT;
+    b.held[0] = b.held[1] = -1;
+    for (int e = 0; e < 3; e++) {
+        if ((found[e].status == MW_NO_CONTACT) != b.nowhere || found[e].unresolved > RESOLVED) return 0;
+        open += found[e].open > 0;
+        if (!set_up_at(&b.h[e], m, s, mesh, pinion, wheel, (size_t)e, turn, sense)) return 0;
+        at[e] = (place *)(void *)met[e];
+        b.known[e] = (middle *)(void *)work + e * MIDDLES;
+        no_middles(b.known[e]);
+        b.top[e] = b.nowhere ? 0.0 : sense * found[e].wheel_turn;
+        b.lever = fmax(b.lever, fabs(found[e].lever));
+        if (b.nowhere) continue;
+        int active[2];
+        for (int k = 0; k < 2; k++) {
+            const int of_wheel = m->bodies[1].margins + 1, limit = found[e].limit[k];
+            active[k] = limit < 0 ? -1 : found[e].member[k] ? limit : limit + of_wheel;
+        }
+        from_place(&b.h[e], found + e, &leads);
+        if (!pushes(&b, e, &leads, active)) return 0;
+    }
+    if (open) return open == 3 && stays_open(&b, mesh, at);
+    for (size_t t = 0; t < mesh->triangles; t++)
+        if (!lasts_in(&b, at, mesh->corner + 3 * t)) return 0;
+    return 1;
+}
+
+size_t mw_first_met_size(size_t vertices)
+{
+    return (vertices * sizeof(place) + sizeof(double) - 1) / sizeof(double);
+}
+
+size_t mw_first_lasts_work(void)
+{
+    return (3 * MIDDLES * sizeof(middle) + sizeof(double) - 1) / sizeof(double);
+}
+
+size_t mw_first_along(const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion, const double *wheel,
+                      size_t n, double turn, double sense, const mw_first *from, mw_first *found)
+{
+    search h;
+    place at;
+    size_t succeeded = 0;
+    memset(found, 0, n * sizeof *found);
+    for (size_t k = 0; k < n; k++) {
+        best_ best;
+        found[k].status = MW_BAD_INPUT;
+        if (!mwi_usable(m) || !m->kernels || !m->kernels->bounded) continue;
+        if (!set_up_at(&h, m, s, mesh, pinion, wheel, k, turn, sense)) continue;
+        if (k == 0) from_place(&h, from, &at);
+        memset(&best, 0, sizeof best);
+        best.at = at;
+        found[k].status = MW_DIVERGED;
+        if (!meet(&h, &best.at) || !climb(&h, &best.at, best.active)) continue;
+        name_limits(&h, &best);
+        at = best.at;
+        write_place(&h, &at, pinion + 12 * k, best.active, found + k);
+        found[k].apart = apart_beside(&h, &at, best.active, BESIDE_STEP);
+        succeeded++;
+    }
+    return succeeded;
+}
+
 /* A place where flanks meet, `at`, on its curve; 0 where there is none, or the flanks are of another kind. */
 static int on_curve(search *h, const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion,
                     const double *wheel, double turn, double sense, const mw_first *at, int member, int limit, curve *c, place *P)
 {
-    memset(P, 0, sizeof *P);
-    P->pinion.p[0] = NAN;
     if (!mwi_usable(m) || !m->kernels || !m->kernels->bounded) return 0;
     if (m->bodies[0].parameters > MAX_K || m->bodies[1].parameters > MAX_K) return 0;
     if (limit >= 0 && (member < 0 || member > 1 || limit > m->bodies[member].margins)) return 0;
     if (!set_up(h, m, s, mesh, pinion, wheel, turn)) return 0;
     h->sense = sense;
-    memcpy(P->q, at->q_wheel, (size_t)h->nw * sizeof *P->q);
-    memcpy(P->p, at->q_pinion, (size_t)h->nk * sizeof *P->p);
-    P->delta = at->wheel_turn;
+    from_place(h, at, P);
     c->h = h;
     c->held = limit < 0 ? -1 : member ? limit : limit + m->bodies[1].margins + 1;
     return meet(h, P) && curve_reach(c, -1, P);

@@ -48,18 +48,24 @@ static const mw_lane_model *kernels_of(const mw_model *m, const mw_lane_set *set
     return mwi_usable(m) && m->kernels ? m->kernels->lanes[set->set] : NULL;
 }
 
-/* Work of both traces: state, parameters, start, angles, points in lanes; then the scalar state and work. */
+/* Work of both traces: state, parameters, start, angles, points in lanes; then the scalar state and work, and rows of points
+ * between those that are asked for. */
 typedef struct room {
-    double *s, *p, *start, *phi, *x, *state, *work;
+    double *s, *p, *start, *phi, *x, *state, *work, *between;
 } room;
 
 /* A vector that crosses a cache line costs twice: lanes begin at multiples of ALIGN numbers. */
 enum { ALIGN = 8, PARTS = 5, KEPT = MW_HISTORY + MW_LANE_BLOCK };
 
+/* Angles that lie further apart than a lane follows a contact, rad, are reached over others between: where there are no more
+ * than so many altogether. */
+static const double STRIDE = 0.05;
+enum { MOST_BETWEEN = 512 };
+
 size_t mw_lanes_work(const mw_lane_set *set, const mw_model *m, size_t n)
 {
     const size_t lanes = (size_t)set->lanes, nx = (size_t)m->nx, ns = (size_t)m->ns, np = (size_t)m->np;
-    return lanes * (ns + np + nx + n + KEPT * nx) + ns + np + PARTS * ALIGN;
+    return lanes * (ns + np + nx + n + MOST_BETWEEN + (KEPT + MOST_BETWEEN) * nx) + ns + np + PARTS * ALIGN;
 }
 
 static double *take(double **free, size_t count)
@@ -77,10 +83,11 @@ static room divide(const mw_lane_set *set, const mw_model *m, size_t n, double *
     r.s = take(&work, lanes * ns);
     r.p = take(&work, lanes * np);
     r.start = take(&work, lanes * nx);
-    r.phi = take(&work, lanes * n);
+    r.phi = take(&work, lanes * (n > MOST_BETWEEN ? n : MOST_BETWEEN));
     r.x = take(&work, lanes * KEPT * nx);
     r.state = work;
     r.work = r.state + ns;
+    r.between = r.work + np;
     return r;
 }
 
@@ -137,6 +144,15 @@ static size_t converged(size_t n, int *status)
     return n;
 }
 
+/* Into how many parts the way from each angle to the next is divided. */
+static size_t parts_of(const double *phi, size_t n)
+{
+    double widest = 0.0;
+    for (size_t i = 1; i < n; i++) widest = fmax(widest, fabs(phi[i] - phi[i - 1]));
+    const double parts = ceil(widest / STRIDE);
+    return parts > 1.0 && parts * (double)(n - 1) < MOST_BETWEEN ? (size_t)parts : 1;
+}
+
 size_t mw_trace_designs(const mw_lane_set *set, const mw_model *m, const double *p, size_t designs, const double *phi,
                         size_t n, const double *start, double *work, double *x, int *status)
 {
@@ -147,19 +163,29 @@ size_t mw_trace_designs(const mw_lane_set *set, const mw_model *m, const double 
     size_t solved[MW_MAX_LANES], succeeded = 0;
     mw_lane_row rows[MW_MAX_LANES];
     if (!mwi_usable(m) || !in_lanes(k, phi, n)) return all_again(m, p, designs, phi, n, &r, x, status);
+    const size_t parts = parts_of(phi, n), points = (n - 1) * parts + 1;
     for (size_t l = 0; l < lanes; l++) {
-        spread(lanes, l, phi, n, r.phi);
+        for (size_t i = 0; i < points; i++) {
+            const size_t at = i / parts, part = i % parts;
+            r.phi[i * lanes + l] = part ? phi[at] + (phi[at + 1] - phi[at]) * (double)part / (double)parts : phi[at];
+        }
         spread(lanes, l, start, nx, r.start);
     }
     for (size_t first = 0; first < designs; first += lanes) {
         const size_t used = designs - first < lanes ? designs - first : lanes;
         for (size_t l = 0; l < lanes; l++) spread(lanes, l, p + (first + (l < used ? l : 0)) * np, np, r.p);
         k->setup(r.p, r.s, valid);
-        for (size_t l = 0; l < lanes; l++) rows[l] = (mw_lane_row){ x + (first + (l < used ? l : 0)) * n * nx, l < used ? n : 0 };
-        set->follow(k, m, r.s, r.phi, n, r.start, r.x, rows, solved);
+        for (size_t l = 0; l < lanes; l++) {
+            const size_t own = l < used ? l : 0;
+            double *const row = parts > 1 ? r.between + own * points * nx : x + (first + own) * n * nx;
+            rows[l] = (mw_lane_row){ row, l < used ? points : 0 };
+        }
+        set->follow(k, m, r.s, r.phi, points, r.start, r.x, rows, solved);
         for (size_t l = 0, at = first * n; l < used; l++, at += n) {
             const double *own = p + (first + l) * np;
-            const int followed = valid[l] > 0.0 && solved[l] == n && m->setup(own, r.state) == 0 &&
+            for (size_t i = 0; parts > 1 && i < n; i++)
+                memcpy(x + (at + i) * nx, rows[l].x + i * parts * nx, nx * sizeof *x);
+            const int followed = valid[l] > 0.0 && solved[l] == points && m->setup(own, r.state) == 0 &&
                                  touches(m, phi[n - 1], x + (at + n - 1) * nx, &r);
             succeeded += followed ? converged(n, status + at) : again(m, own, phi, n, &r, x + at * nx, status + at);
         }

@@ -188,6 +188,11 @@ int mw_complete_tangent(const mw_model *m, const double *given, const double *p,
 int mw_contact_tangent(const mw_model *m, const double *p, const double *dp, double phi, double dphi, const double *s,
                        const double *x, double *dx, double *dr);
 
+/* Of contacts x[n*nx] at angles phi[n] of a design p[np], how their points move with the angle: dr[3*n], fixed frame, mm/rad, not
+ * numbers where that is not determined. s[ns], work[np + nx]. */
+void mw_contact_motion(const mw_model *m, const double *p, const double *phi, size_t n, const double *x, double *s, double *work,
+                       double *dr);
+
 /* Exact derivatives dr[n*3] of points of the flank of a body (0 pinion, 1 wheel), body frame, at fixed flank parameters
  * q[n*parameters], along changes dp[np] of the complete parameters p[np]. Their normal part is the change of the flank
  * along its normal. Returns MW_CONVERGED, or MW_BAD_INPUT where the model has no tangents or no such body. */
@@ -246,10 +251,11 @@ typedef struct mw_flank_mesh {
  * rad. limit: what holds the place, on flank member (0 pinion, 1 wheel): 0 the singular line, 1 + number of a margin, -1
  * none: two of -1 are a tangency. point, normal (out of the pinion): fixed frame. met: vertices that meet the pinion's
  * bounded flank; open: those of them where nothing ends the flank. unresolved: a further extreme that the search could not
- * exclude would overlap by this at most, mm. */
+ * exclude would overlap by this at most, mm. apart: how far, nearly, the flanks stand apart a step of 0.05 natural sizes beside the
+ * place, mm, along whichever curve through it that is least: next to nothing on a line. */
 typedef struct mw_first {
     int status, limit[2], member[2];
-    double wheel_turn, lever, q_wheel[4], q_pinion[4], point[3], normal[3], unresolved;
+    double wheel_turn, lever, q_wheel[4], q_pinion[4], point[3], normal[3], unresolved, apart;
     size_t met, open;
 } mw_first;
 
@@ -267,6 +273,22 @@ int mw_first_contact(const mw_model *m, const double *s, const mw_flank_mesh *me
                      const double *wheel, size_t steps, double turn, double sense, const double *start, double until,
                      double *work, mw_first *found);
 size_t mw_first_contact_work(size_t vertices);
+
+/* Whether what mw_first_contact found at three pinion angles leads at all between them: found[3] there, none with an `until`,
+ * met[3] what each search left at the begin of its work, mw_first_met_size(vertices) numbers each; pinion[3*12], wheel[3*12] the
+ * placements, `share` that of the way from the first to the last at which the second lies. 1: wherever it leads from one to the
+ * next, no other place of the flanks stands before it by more than half of what the search resolves at one angle, by the same
+ * bounds; or, where no point met at any, none meets between; or, where flanks were open at all, they are between. 0: that is not shown. work[mw_first_lasts_work()]. */
+int mw_first_lasts(const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion, const double *wheel,
+                   double share, double turn, double sense, double *const *met, const mw_first *found, double *work);
+size_t mw_first_lasts_work(void);
+size_t mw_first_met_size(size_t vertices);
+
+/* From a place of first contact, `from`, to the extreme near it at each of n placements, one after the other, pinion[n*12] and
+ * wheel[n*12]: found[n], of which `unresolved`, met and open are not set, MW_DIVERGED where none is reached. Returns how many are.
+ * That they are first is shown by mw_first_lasts. */
+size_t mw_first_along(const mw_model *m, const double *s, const mw_flank_mesh *mesh, const double *pinion, const double *wheel,
+                      size_t n, double turn, double sense, const mw_first *from, mw_first *found);
 
 /* The curve through a place at[1] of first contact: with limit = -1 the ridge on which the wheel angle is extreme across it,
  * else the border of a member (0 pinion, 1 wheel) on which that limit of it, numbered as in mw_first, holds. Where the wheel

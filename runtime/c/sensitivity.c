@@ -69,6 +69,19 @@ int mw_contact_tangent(const mw_model *m, const double *p, const double *dp, dou
     return MW_CONVERGED;
 }
 
+void mw_contact_motion(const mw_model *m, const double *p, const double *phi, size_t n, const double *x, double *s, double *work,
+                       double *dr)
+{
+    const int usable = mwi_usable(m) && m->setup(p, s) == 0;
+    double *const unchanged = work, *const dx = work + (usable ? m->np : 0);
+    for (int i = 0; usable && i < m->np; i++) unchanged[i] = 0.0;
+    for (size_t k = 0; k < n; k++, dr += 3) {
+        if (usable) m->set_phi(s, phi[k]);
+        if (usable && mw_contact_tangent(m, p, unchanged, phi[k], 1.0, s, x + k * (size_t)m->nx, dx, dr) >= 0) continue;
+        dr[0] = dr[1] = dr[2] = NAN;
+    }
+}
+
 int mw_flank_tangent(const mw_model *m, int body, const double *p, const double *dp, const double *q, size_t n, double *dr)
 {
     const mw_tangents *t = tangents_of(m);

@@ -44,8 +44,9 @@ static int holds(trace *t, size_t k)
 {
     double x[MW_MAX_UNKNOWNS];
     mw_info info;
-    return mwi_walk_to(&t->pair, t->phi[k], x, &info) >= 0 && mwi_possible(&t->pair, t->phi[k], x) &&
-           mwi_near(t->m, t->pair.s, x, t->x + k * (size_t)t->m->nx, SAME);
+    const int there = mwi_strode(&t->pair, t->phi[k], x, &info) ||
+                      (mwi_walk_to(&t->pair, t->phi[k], x, &info) >= 0 && mwi_possible(&t->pair, t->phi[k], x));
+    return there && mwi_near(t->m, t->pair.s, x, t->x + k * (size_t)t->m->nx, SAME);
 }
 
 /* Solve point k from the reference, or by search. */

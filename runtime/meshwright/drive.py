@@ -197,14 +197,14 @@ class Drive:
 
         return turning(self, angles)
 
-    def cycle(self, angles, coast=None):
+    def cycle(self, angles, coast=None, edges=False):
         """The whole drive, all pairs and both flanks, at pinion angles (rad) of any size:
         :class:`~meshwright.cycle.turning_drive.Cycle`. ``coast``: the drive of the other flank, where that has a design
-        of its own.
+        of its own; ``edges``: search for edges and corners where they may touch first.
         """
         from meshwright.cycle.turning_drive import cycle
 
-        return cycle(self, angles, coast)
+        return cycle(self, angles, coast, edges)
 
     @cached_property
     def enclosed(self):

@@ -21,7 +21,7 @@ from derive.passes.schedule import schedule
 from derive.program.tape import Stage
 from meshwright import Drive
 from meshwright.base.library import ffi, library, pointer
-from tests.benchmarks import baselines, calls, certified, latency, regeneration
+from tests.benchmarks import baselines, calls, certified, latency, regeneration, turning
 from tests.benchmarks.chain import Chain
 from tests.benchmarks.timing import best, compile_c, compiler, instructions
 
@@ -249,6 +249,7 @@ def main():
         print(f"  {name:<28} {unknowns:>2} {count:>5} {1e9 / rate:>7.1f} {1e9 / rate / unknowns:>6.1f}")
     certified.report()
     calls.report()
+    turning.report()
     latency.report()
     regeneration.report(growth[0][0])
 

@@ -1,5 +1,6 @@
 """What other programs rely on: commands, keys and statuses of the JSON."""
 
+import csv
 import json
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 
 from meshwright import Drive
 from meshwright.cli import main
+from meshwright.commands import tca
 from meshwright.design import description as metadata
 from meshwright.design import design
 
@@ -144,3 +146,20 @@ def test_the_order_of_the_angles_does_not_matter():
     angles = np.radians([500.0, -300.0, 100.0])
     mixed, ordered = drive.tca(angles), drive.tca(np.sort(angles))
     assert np.array_equal(np.sort(mixed.wheel_angles), ordered.wheel_angles)
+
+
+def test_results_that_are_written_as_they_go_are_those_written_at_once(tmp_path, monkeypatch, capsys):
+    """JSON, CSV and text of angles to both sides of the reference, none of them, some without first contact."""
+    written = {}
+    for at_once in (4096, 3):
+        monkeypatch.setattr(tca, "AT_ONCE", at_once)
+        files = [tmp_path / f"{at_once}.{ending}" for ending in ("json", "csv")]
+        words = ["tca", "helical-crowned", "--phi-deg=-191:180:20.5"]
+        codes = main([*words, "--json", str(files[0]), "--csv", str(files[1])]), main(words)
+        rows = list(csv.reader(files[1].read_text().splitlines()))
+        assert {len(row) for row in rows} == {len(rows[0])}
+        points = [point["transmission_error_relative_arcsec"] for point in json.loads(files[0].read_text())["points"]]
+        written[at_once] = codes, rows[0], [row[:2] for row in rows], points, capsys.readouterr().out
+    assert written[3][:3] == written[4096][:3] and written[3][4] == written[4096][4]
+    assert written[3][3] == pytest.approx(written[4096][3], abs=1e-10, nan_ok=True)
+    assert "first_contact" in written[3][1] and "first_contact.kind" in written[3][1]

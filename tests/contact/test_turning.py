@@ -17,6 +17,13 @@ REDUCED = [
     (3, -123456789.125, -58946275, "0.53932245961837303607"),
 ]
 
+#: A packaged design of every drive.
+OF_EVERY_DRIVE = (
+    "bevel-crown-pair", "bevel-face-hobbed", "bevel-formate", "crossed-helical-17-23", "face-worm-conical-concave",
+    "plain-za", "plain-zc", "plain-zi", "plain-zk", "plain-zn", "zk-zn-30", "spherical-table-2-1",
+    "spherical-table-2-2-concave-14-5", "spherical-table-2-2-convex-14-5", "spherical-table-3-1-convex",
+)  # fmt: skip
+
 
 def _reduce(drive, teeth, phi, reference=0.0):
     m, p = drive.model, np.array(drive.design.parameters)
@@ -94,6 +101,21 @@ def test_a_contact_has_the_same_bits_whatever_was_asked_before(name):
         for k in range(0, len(angles), 7):
             status, alone = _alone(drive, records["angle"][k])
             assert status == records["status"][k] and alone.tobytes() == x[k].tobytes()
+
+
+@pytest.mark.parametrize("name", quick(OF_EVERY_DRIVE, "plain-zc", "spherical-table-2-1"))
+def test_every_drive_has_the_same_bits_in_any_order_and_the_same_errors_after_any_turns(name):
+    drive, generator = Drive.load(name), np.random.default_rng(15)
+    sample = np.linspace(-0.45, 0.45, 25) * drive.pitch() + drive.about_the_middle([0.0])
+    _, here = _followed(drive, sample)
+    assert (here["status"] >= 0).all()
+    for turns in (0.0, 1e6, 9.9e11):
+        angles = turns + sample
+        x, records = _followed(drive, angles)
+        for rows in (slice(None, None, -1), generator.permutation(len(angles))):
+            assert _followed(drive, angles[rows])[0].tobytes() == x[rows].tobytes()
+        wrapped, _ = _followed(drive, records["angle"])
+        assert np.abs(wrapped - x)[:, drive.model.error].max() < 1e-12
 
 
 @pytest.mark.parametrize("name", quick(VARIED, "recess-action-full", "helical-crowned"))

@@ -9,13 +9,14 @@ from meshwright import Drive
 from meshwright.cli import main
 from meshwright.commands import loading
 from meshwright.contact.results import ARCSEC, impossible
+from meshwright.cycle import first_contact
 from meshwright.cycle.edge_contact import edge_paths
 from meshwright.cycle.first_contact import pair_errors
 from meshwright.cycle.pairs import Mesh
 from meshwright.report.analysis import analyse
 from meshwright.report.findings import findings
 from tests.independent.first_touch import FirstTouch
-from tests.quick import some
+from tests.quick import quick, some
 from tests.worm.designs import plain
 
 #: A ZN worm with a ZA hob whose tangency at -40 degrees lies 6 micrometres inside the other flank at its face.
@@ -312,3 +313,34 @@ def test_where_a_path_of_contact_has_left_the_face_the_edge_that_touches_is_foun
     assert np.isfinite(expected).all()
     assert found.errors == pytest.approx(expected, abs=1e-6 * ARCSEC)
     assert set(found.members) == {"pinion", "both"}
+
+
+@pytest.mark.parametrize(
+    ("name", "begin", "end"),
+    quick(
+        [
+            ("helical-crowned", -1.2, 1.2), ("plain-zi", -1.3, -0.6), ("bevel-crowned-both", -0.9, -0.6),
+            ("face-worm-conical-convex", -1.0, 1.0), ("spherical-table-2-2-convex-20", -1.0, 1.0),
+        ],
+        ("helical-crowned", -1.2, 1.2),
+    ),
+)  # fmt: skip
+def test_first_contacts_followed_between_angles_are_those_searched_for(name, begin, end):
+    """Over changes from tangencies to edges and corners: at some angles of many, a search of its own."""
+    drive, rows = Drive.load(name), np.random.default_rng(3).choice(3000, 25, replace=False)
+    angles = np.linspace(begin, end, 3000) * drive.pitch()
+    many = drive.first_contact(angles)
+    for k in rows:
+        alone = Drive.load(name).first_contact(angles[[k]])
+        assert (many.kinds[k], many.limits[k], many.edges[k]) == (alone.kinds[0], alone.limits[0], alone.edges[0])
+        assert many.errors[k] == pytest.approx(alone.errors[0], abs=1e-9 * ARCSEC, nan_ok=True)
+        assert many.untouched[k] == alone.untouched[0]
+
+
+def test_many_angles_are_searched_for_at_few_of_them(monkeypatch):
+    searches = []
+    one = first_contact.Search._one
+    monkeypatch.setattr(first_contact.Search, "_one", lambda self, *at: searches.append(at) or one(self, *at))
+    drive = Drive.load("helical-crowned")
+    drive.first_contact(np.linspace(-0.5, 0.5, 20_000) * drive.pitch())
+    assert len(searches) < 400

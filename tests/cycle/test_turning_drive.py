@@ -204,3 +204,41 @@ def test_bounded_flanks_that_touch_at_edges_alone_are_said_to():
 def test_what_is_no_angle_is_refused(angle):
     with pytest.raises(UsageError, match="give none beyond 1e\\+12 rad"):
         Drive.load("plain-za").cycle([angle])
+
+
+EDGED = {
+    "bevel-hypoid-formate": {},
+    "spur-profile-shift": {"misalignment": {"vertical_deg": 0.05}},
+    "helical-crowned": {"misalignment": {"vertical_deg": 0.3}},
+    "plain-zn": {"design": {"hand": "left"}, "blank": {"wheel_face_width_mm": 9.0}},
+}
+
+
+@pytest.mark.parametrize("name", quick(EDGED, "bevel-hypoid-formate"))
+def test_edges_that_touch_first_are_found_over_all_pairs(name):
+    """Brute force: the first contacts of all pairs within four pitches, the one that leads; the ratio as it changes."""
+    drive = Drive.load(name).with_(**EDGED[name])
+    pitch, numbers, turned = drive.pitch(), np.arange(-4, 5), 1e-6
+    angles = np.linspace(0.013, 1.013, 6) * pitch
+    without, found = drive.cycle(angles), drive.cycle(angles, edges=True)
+    assert without.drive.edges.any() and not found.drive.edges.any()
+    for k, angle in enumerate(angles):
+        alone = drive.first_contact(angle - numbers * pitch)
+        touching = ~np.isnan(alone.errors)
+        ahead = np.where(touching, Mesh.of(drive).sense * alone.errors, -np.inf)
+        assert found.drive.errors[k] == pytest.approx(alone.errors[np.argmax(ahead)], abs=AGREED)
+        kind = alone.kinds[np.argmax(ahead)]
+        assert found.drive.statuses[k] == {"tangency": "converged"}.get(kind, f"{kind}_contact")
+        sides = drive.cycle([angle - turned, angle + turned], edges=True).drive.errors
+        slope = drive.ratio + (sides[1] - sides[0]) / (2.0 * turned)
+        assert found.drive.ratios[k] == pytest.approx(slope, abs=2e-7)
+        assert found.drive.pairs[k] == numbers[np.argmax(ahead)]
+
+
+def test_backlash_on_edges_is_that_of_both_flanks():
+    """A misaligned spur pair: as ``ratio`` has its least."""
+    drive = Drive.load("spur-profile-shift").with_(
+        design={"center_distance_mm": 56.6}, misalignment={"vertical_deg": 0.05}
+    )
+    found = drive.cycle(np.arange(8) / 8 * drive.pitch(), edges=True)
+    assert np.min(found.backlash) == pytest.approx(backlash(drive), abs=AGREED)

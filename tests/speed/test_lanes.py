@@ -102,3 +102,16 @@ def _first_of_two(lanes, drive, angles):
 def test_no_angle_is_no_point(lanes):
     x, _, succeeded = trace(lanes, Drive.load("recess-action-full"), np.empty(0))
     assert len(x) == 0 and succeeded == 0
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_angles_far_apart_are_reached_over_others_between(lanes, name):
+    """Thirteen angles of a sample: as of the scalar trace, in the order in which they are asked for."""
+    drive = Drive.load(name)
+    angles = np.linspace(-0.6, 0.6, 13)[:: -1 if name == DESIGNS[0] else 1].copy()
+    x, status, succeeded = trace_designs(lanes, drive, drive.design.parameters[None], angles)
+    order = np.argsort(angles)
+    known, words = drive.trace(angles[order])
+    there = np.array([word == "converged" for word in words])
+    assert there.any() and succeeded == there.sum()
+    assert x[0][order][there] == pytest.approx(known[there], rel=1e-11, abs=1e-11)

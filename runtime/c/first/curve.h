@@ -231,4 +231,34 @@ static void curve_deepest(const curve *c, double step, int enough, place *P)
     }
 }
 
+/* How far the flanks stand apart, mm, a step of so many natural sizes beside a place, on whichever of the curves through it
+ * that is least: the ridge, or a border that holds it; to second order. */
+static double apart_beside(const search *h, const place *P, const int *active, double step)
+{
+    model_ q;
+    double least = HUGE_VAL;
+    if (!expand(h, P, &q)) return 0.0;
+    for (int k = -1; k < 2; k++) {
+        double across[2], second[3] = {q.second[0], q.second[1], q.second[2]};
+        if (k < 0) {
+            const double half = 0.5 * (q.second[0] - q.second[2]), radius = sqrt(half * half + q.second[1] * q.second[1]);
+            const double u = half > 0.0 ? -q.second[1] : half - radius, v = half > 0.0 ? half + radius : q.second[1];
+            across[0] = u, across[1] = v;
+        } else {
+            if (active[k] < 0 || active[k] >= MAX_LIMITS) continue;
+            across[0] = q.along[active[k]][0], across[1] = q.along[active[k]][1];
+        }
+        const double size = sqrt(across[0] * across[0] + across[1] * across[1]), t[2] = {-across[1] / size, across[0] / size};
+        if (!(size > 0.0)) return 0.0;
+        if (k >= 0) { /* the border bends away from its tangent */
+            const double push = (q.slope[0] * across[0] + q.slope[1] * across[1]) / (size * size);
+            for (int i = 0; i < 3; i++) second[i] -= push * q.curve[active[k]][i];
+        }
+        const double slope = q.slope[0] * t[0] + q.slope[1] * t[1];
+        const double bend = second[0] * t[0] * t[0] + 2.0 * second[1] * t[0] * t[1] + second[2] * t[1] * t[1];
+        least = fmin(least, fabs(slope) * step + 0.5 * fabs(bend) * step * step);
+    }
+    return least * fabs(P->lever);
+}
+
 #endif

@@ -7,6 +7,7 @@ import json
 import os
 import re
 import sys
+import tempfile
 import time
 from contextlib import contextmanager
 from pathlib import Path
@@ -45,10 +46,8 @@ def read_table(path, largest, what):
 
 def write_text(place, content):
     """Write to standard output ("-") or replace a file; an interrupted write leaves the old file."""
-    if place == "-":
-        sys.stdout.write(content)
-    else:
-        write_bytes(place, content.encode("utf-8"))
+    with written(place) as write:
+        write(content)
 
 
 def write_bytes(place, content):
@@ -60,15 +59,35 @@ def write_bytes(place, content):
         sys.stdout.flush()
         sys.stdout.buffer.write(content)
         return
+    with _opened(place) as stream:
+        stream.write(content)
+
+
+@contextmanager
+def written(place):
+    """Function of a text that writes it to standard output ("-") or to what replaces a file at the end; after an error
+    the old file is left.
+    """
+    if place == "-":
+        yield sys.stdout.write
+        return
+    with _opened(place) as stream:
+        yield lambda text: stream.write(text.encode("utf-8"))
+
+
+@contextmanager
+def _opened(place):
+    """A stream of bytes into a device or pipe, or into what replaces a file at the end."""
     path = Path(place)
     if path.is_dir():
         raise UsageError(f"{place}: a folder; name a file in it")
     try:
         if path.exists() and (not path.is_file() or path.is_relative_to("/dev")):
-            path.write_bytes(content)
+            with open(path, "wb") as stream:
+                yield stream
         else:
-            with replaced(path.resolve()) as temporary:
-                temporary.write_bytes(content)
+            with replaced(path.resolve()) as temporary, open(temporary, "wb") as stream:
+                yield stream
     except OSError as error:
         raise UsageError(f"{place}: cannot be written ({error.strerror}); {remedy(error)}") from error
 
@@ -152,14 +171,61 @@ def lock(stream, wait=False):
 
 def write_json(place, data):
     """Plain data as JSON; numbers round-trip. Letters beyond ASCII are escaped where standard output has none."""
-    plain = place == "-" and "utf" not in (sys.stdout.encoding or "").lower()
-    write_text(place, json.dumps(data, indent=1, ensure_ascii=plain, allow_nan=False) + "\n")
+    write_text(place, json.dumps(data, indent=1, ensure_ascii=_is_plain(place), allow_nan=False) + "\n")
+
+
+def _is_plain(place):
+    return place == "-" and "utf" not in (sys.stdout.encoding or "").lower()
+
+
+@contextmanager
+def json_list(place, data, name):
+    """Function of a list that adds its entries, a line each, to the list ``name`` behind the plain ``data`` as JSON."""
+    plain = _is_plain(place)
+    encoded = json.JSONEncoder(ensure_ascii=plain, allow_nan=False).encode
+    with written(place) as write:
+        write(json.dumps(data, indent=1, ensure_ascii=plain, allow_nan=False)[:-2] + f',\n "{name}": [')
+        begun = False
+
+        def add(entries):
+            nonlocal begun
+            if entries:
+                write((",\n  " if begun else "\n  ") + ",\n  ".join(map(encoded, entries)))
+            begun |= bool(entries)
+
+        yield add
+        write("\n ]\n}\n" if begun else "]\n}\n")
 
 
 def write_csv(place, header, rows):
     """A table as CSV."""
+    write_text(place, _lines([header, *rows]))
+
+
+def _lines(rows):
     stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(header)
-    writer.writerows(rows)
-    write_text(place, stream.getvalue())
+    csv.writer(stream, lineterminator="\n").writerows(rows)
+    return stream.getvalue()
+
+
+@contextmanager
+def csv_table(place):
+    """Function of a list of dictionaries that adds them as rows of a CSV table, whose columns are all names that occur,
+    in the order in which they do; its lines wait in a temporary file for the last.
+    """
+    header, parts = {}, []
+    with tempfile.TemporaryFile("w+", encoding="utf-8", newline="") as kept:
+
+        def add(rows):
+            header.update(dict.fromkeys(key for row in rows for key in row))
+            parts.append((len(rows), len(header)))
+            kept.write(_lines([[row.get(key, "") for key in header] for row in rows]))
+
+        yield add
+        kept.seek(0)
+        with written(place) as write:
+            write(_lines([header]))
+            for count, columns in parts:
+                missing = "," * (len(header) - columns) + "\n"
+                for _ in range(count):
+                    write(kept.readline().rstrip("\n") + missing)

@@ -52,7 +52,7 @@ def _format(kind):
         return (_format(kind.item), kind.length)
     if kind.kind == "struct":
         return record(kind.cname)
-    return {"double": "f8", "int": "i4", "unsigned int": "u4"}[kind.cname]
+    return {"double": "f8", "int": "i4", "unsigned int": "u4", "size_t": "u8"}[kind.cname]
 
 
 def _parsed():

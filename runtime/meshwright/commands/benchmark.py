@@ -97,8 +97,9 @@ def case(words, name, drive, changes, angles=None, about=None, first_contact=Fal
     points = [_point(found, k, angle, found.error_arcsec()[k]) for k, angle in enumerate(angles)]
     if first_contact:
         firsts, proofs = drive.first_contact(result.angles, result), drive.certify_first(result.angles, result, found)
-        for k, (point, proof) in enumerate(zip(points, proofs.to_plain(result), strict=True)):
-            point["first_contact"] = firsts.point(k, result.error)
+        entries = zip(points, firsts.plain(result.error), proofs.to_plain(result), strict=True)
+        for point, first, proof in entries:
+            point["first_contact"] = first
             point["tangency_comes_first"] = proof["outcome"]
     return {"name": words, "about": about, "design": f"designs/{name}.toml", "changes": changes, "points": points}
 

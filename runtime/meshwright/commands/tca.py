@@ -6,18 +6,24 @@ a corner, each of which is a result. Exit status 1 if the flanks do not touch at
 
 import math
 import sys
+from contextlib import ExitStack
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from meshwright.base.errors import UsageError
-from meshwright.base.files import write_csv, write_json, write_text
+from meshwright.base.files import csv_table, json_list, write_json, write_text
 from meshwright.commands import options as common
 from meshwright.commands.progress import progress
+from meshwright.contact.certificate import Shown, degrees_of
 from meshwright.contact.flags import not_first
 from meshwright.contact.friction import efficiency
 from meshwright.contact.velocities import velocities
 from meshwright.cycle.first_contact import Search
+
+#: Angles that are analysed, and written, at once.
+AT_ONCE = 4096
 
 #: More directions than this are taken for a mistake.
 MOST_DIRECTIONS = 36_000
@@ -70,23 +76,77 @@ def run(options):
         raise UsageError(f"--contour {options.contour}: {MOST_DIRECTIONS} directions at most; choose fewer")
     if options.proof is not None and not (options.certify and options.phi_deg):
         raise UsageError(f"--proof {options.proof}: needs --certify and --phi-deg; for example --phi-deg 0 --certify")
-    result = drive.tca(common.angles_of(options, drive))
-    certificates = _certificates(options, drive, result)
+    angles = common.angles_of(options, drive)
+    degrees = degrees_of(options.phi_deg) if options.phi_deg else None
+    parts = [slice(k, k + AT_ONCE) for k in range(0, len(angles), AT_ONCE)]
+    reference = _reference(drive, [angles[part] for part in parts]) if len(parts) > 1 else None
+    told = _Told(drive)
+    with ExitStack() as until_the_end:
+        writers = _writers(options, drive, until_the_end)
+        for part in parts:
+            asked = _Asked(angles[part], degrees and degrees[part], reference)
+            result, first, certificates = _contacts(drive, asked)
+            points = _points(options, drive, result, first, certificates)
+            told.add(result, first, options.proof is None or _write_proofs(options, drive, result, degrees, part.start))
+            if not writers:
+                told.add_in_words(points, certificates)
+                write_text("-", (_heading(drive) if part.start == 0 else "") + "".join(map(_line, points)))
+            for write in writers:
+                write(points)
+    told.say(in_words=not writers)
+    return 0 if told.complete else 1
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """Some of the angles, rad; as written, in degrees, or None; the error to which theirs are relative, or None."""
+
+    angles: np.ndarray
+    degrees: list | None
+    reference: float | None
+
+
+def _contacts(drive, asked):
+    """A TCA, refined, with what precedes its contacts, and their proofs."""
+    result = drive.tca(asked.angles)
+    certificates = drive.certify(result.angles, result, asked.degrees)
     if drive.backend == "c":
         result = drive.refined(result, certificates)
+    if asked.reference is not None:
+        result = result.relative_to(asked.reference)
     first = drive.first_contact(result.angles, result)
-    result = not_first(result, first)
+    return not_first(result, first), first, certificates
+
+
+def _reference(drive, parts):
+    """The error to which those of all parts are relative: at the reference angle or, where there is no contact, the
+    nearest angle that has one.
+    """
+    at = drive.design.mirror.sign * drive.design.reference_angle
+    least, known = math.inf, math.nan
+    there = [] if any(np.any(part == at) for part in parts) else [np.array([at])]
+    for part in there + sorted(parts, key=lambda part: np.min(np.abs(part - at))):
+        if np.min(np.abs(part - at)) > least or least == 0.0:
+            break
+        result = drive.tca(part)
+        if drive.backend == "c":
+            result = drive.refined(result)
+        away = np.where(np.isfinite(result.error), np.abs(part - at), math.inf)
+        if np.min(away) < least:
+            least, known = np.min(away), float(result.error[np.argmin(away)])
+    return known
+
+
+def _points(options, drive, result, first, certificates):
+    """What is written of each point, as plain data."""
     points = result.to_points()
-    for k, point in enumerate(points):
-        point["first_contact"] = first.point(k, result.error)
     moving = velocities(drive, result)
     rubbing = efficiency(drive, result, common.friction_of(options), moving)
-    for point, *found in zip(points, moving.plain(), rubbing.plain(), strict=True):
-        for part in found:
+    columns = first.plain(result.error), moving.plain(), rubbing.plain()
+    for point, found, *others in zip(points, *columns, strict=True):
+        point["first_contact"] = found
+        for part in others:
             point |= part
-    _say_unresolved(first)
-    if set(result.status) == {"no_contact"}:
-        common.say_proportions(drive)
     if options.contour is not None:
         _add_contours(points, drive, result, options.contour)
     if options.all_contacts:
@@ -96,49 +156,108 @@ def run(options):
         held = drive.certify_extremes(result.angles, result)
         for k, (point, certificate, found) in enumerate(zip(points, certificates.to_plain(), firsts, strict=True)):
             point["certificate"] = certificate | {"first_contact": found, "contact_line": None} | held.plain(k)
-    proved = options.proof is None or _write_proofs(options, drive, result)
+    return points
+
+
+def _writers(options, drive, until_the_end):
+    """Functions that write some points to each file that is asked for."""
+    writers = []
     if options.json:
         document = {"schema": "meshwright.tca/1", "drive": drive.design.family, "design": drive.design.as_solved()}
-        write_json(options.json, document | {"points": points})
+        writers.append(until_the_end.enter_context(json_list(options.json, document, "points")))
     if options.csv:
-        write_csv(options.csv, *_columns(points))
-    if not options.json and not options.csv:
-        held = [k for k, p in enumerate(points) if p.get("certificate", {}).get("outcome") == "enclosed"]
-        said = f"{_not_aligned(drive, points)}{_enclosed(points)}{certificates.said(held)}"
-        write_text("-", f"{_table(drive, points)}{said.rstrip()}\n")
-    return 0 if result.complete and proved else 1
+        add_rows = until_the_end.enter_context(csv_table(options.csv))
+        writers.append(lambda points: add_rows([_flat(point) for point in points]))
+    return writers
 
 
-def _certificates(options, drive, result):
-    """Proofs of the contacts, at the decimals of the angles where they were given."""
-    from meshwright.contact.certificate import degrees_of
-
-    return drive.certify(result.angles, result, options.phi_deg and degrees_of(options.phi_deg))
-
-
-def _write_proofs(options, drive, result):
-    """A file of each angle; whether every contact has one. One that has no proof is said on standard error."""
-    from meshwright.contact.certificate import degrees_of
+def _write_proofs(options, drive, result, degrees, begin):
+    """A file of each angle from number ``begin`` on; whether every contact has one. One without a proof is said on
+    standard error.
+    """
     from meshwright.contact.proof import proof
 
-    place = Path(options.proof)
-    exact = degrees_of(options.phi_deg)
-    written = 0
-    for k, degrees in enumerate(exact):
-        numbered = place.with_stem(f"{place.stem}-{k + 1}") if len(exact) > 1 else place
+    place, written = Path(options.proof), 0
+    for k, x in enumerate(result.solutions, begin):
+        numbered = place.with_stem(f"{place.stem}-{k + 1}") if len(degrees) > 1 else place
         try:
-            write_json(str(numbered), proof(drive, degrees, result.solutions[k]))
+            write_json(str(numbered), proof(drive, degrees[k], x))
             written += 1
         except UsageError as error:
             print(error, file=sys.stderr)
-    return written == len(exact)
+    return written == len(result.solutions)
 
 
-def _say_unresolved(first):
+class _Told:
+    """What is said of all points together."""
+
+    def __init__(self, drive):
+        self.drive = drive
+        self.complete, self.statuses, self.unresolved = True, set(), []
+        self.shown, self.radii, self.lines = Shown(), [], []
+        self.on_edges, self.rise, self.beyond_a_pitch = 0, -math.inf, False
+
+    def add(self, result, first, proved):
+        self.complete &= result.complete and proved
+        self.statuses |= set(result.status)
+        self.unresolved.append(first.unresolved)
+
+    def add_in_words(self, points, certificates):
+        """What the text alone says."""
+        proofs = [point.get("certificate", {}) for point in points]
+        held = [k for k, proof in enumerate(proofs) if proof.get("outcome") == "enclosed"]
+        self.shown += certificates.shown(held)
+        self.radii += [proofs[k]["radius"] for k in held]
+        self.lines += [proofs[k]["contact_line"] for k in held if proofs[k]["contact_line"] is not None]
+        on_edges = [point for point in points if point["status"] in ON_EDGES]
+        self.on_edges += len(on_edges)
+        if on_edges:
+            self.rise = max(self.rise, _out_of_line(self.drive, on_edges))
+            wheel_pitch = math.degrees(abs(self.drive.ratio) * self.drive.pitch()) * 3600.0
+            self.beyond_a_pitch |= any(abs(p["transmission_error_arcsec"]) > wheel_pitch for p in on_edges)
+
+    def say(self, in_words):
+        unresolved = np.concatenate(self.unresolved)
+        _say_unresolved(unresolved)
+        if self.statuses == {"no_contact"}:
+            common.say_proportions(self.drive)
+        if in_words:
+            said = f"{self._not_aligned(len(unresolved))}{self._enclosed()}{self.shown.said()}"
+            write_text("-", f"{said.rstrip()}\n")
+
+    def _not_aligned(self, count):
+        """Which errors of the assembly are given where flanks touch on edges or at corners; nothing elsewhere."""
+        if not self.on_edges:
+            return ""
+        errors = {key: value for key, value in self.drive.design.given().get("misalignment", {}).items() if value}
+        given = ", ".join(f"{key} = {value:g}" for key, value in errors.items())
+        said = [f"on an edge or at a corner at {self.on_edges} of {count} angles"]
+        if self.rise > -math.inf:
+            rise = f"{1000 * self.rise:.3g} µm"
+            said.append(f"from one end of the contact line to the other the flanks are out of line by {rise}")
+        if self.beyond_a_pitch:
+            until = "until this pair touches: other pairs do before"
+            said.append(f"somewhere the wheel turns by more than its pitch {until}")
+        said.append(f"errors of the assembly: {given}" if given else "the assembly has no errors")
+        return "; ".join(said) + "\n"
+
+    def _enclosed(self):
+        """How many errors of contacts that are no tangencies are proved to lie between two numbers; nothing if none."""
+        if not self.radii:
+            return ""
+        within = f"within {max(self.radii):.0e} arcsec"
+        said = f"enclosed: the error of {len(self.radii)} contacts on lines, edges or corners, {within}\n"
+        if shown := [max(map(abs, line["apart_mm"])) for line in self.lines if line["outcome"] == "enclosed"]:
+            of = f"{len(shown)} of {len(self.lines)} lines"
+            said += f"enclosed: {of}, both flanks within {max(shown):.0e} mm all along\n"
+        return said
+
+
+def _say_unresolved(unresolved):
     """On standard error, what the search for first contact could not exclude."""
-    doubtful = first.unresolved > RESOLVED
+    doubtful = unresolved > RESOLVED
     if doubtful.any():
-        most = first.unresolved[doubtful].max()
+        most = unresolved[doubtful].max()
         bound = f"by up to {1000.0 * most:.3g} µm" if most < MEANINGFUL else "by an amount that is not bounded"
         print(
             f"first contact: at {doubtful.sum()} of {len(doubtful)} angles a place that the search missed could "
@@ -180,14 +299,8 @@ def _radii(patch):
     ]
 
 
-def _columns(points):
-    """Header and rows: nested entries become ``name_x`` or ``group.name``."""
-    rows = [_flat(point) for point in points]
-    header = list(dict.fromkeys(key for row in rows for key in row))
-    return header, [[row.get(key, "") for key in header] for row in rows]
-
-
 def _flat(point):
+    """A row: nested entries become ``name_x`` or ``group.name``."""
     flat = {}
     for key, value in point.items():
         if isinstance(value, dict):
@@ -208,65 +321,35 @@ def _flat(point):
     return flat
 
 
-def _table(drive, points):
-    lines = [f"{drive.design.description['title']}, {drive.design.tables['name'] or 'design'}"]
-    lines.append(
-        f"{'pinion':>10} {'wheel':>12} {'transmission':>13} {'relative':>11} {'ellipse semi-axes':>19}  status, flags"
+def _heading(drive):
+    return (
+        f"{drive.design.description['title']}, {drive.design.tables['name'] or 'design'}\n"
+        f"{'pinion':>10} {'wheel':>12} {'transmission':>13} {'relative':>11} {'ellipse semi-axes':>19}  status, flags\n"
+        f"{'deg':>10} {'deg':>12} {'error, arcsec':>13} {'arcsec':>11} {'mm':>19}\n"
     )
-    lines.append(f"{'deg':>10} {'deg':>12} {'error, arcsec':>13} {'arcsec':>11} {'mm':>19}")
-    for point in points:
-        axes = point["ellipse"]
-        lines.append(
-            f"{point['pinion_angle_deg']:>10.3f} {_cell(point['wheel_angle_deg'], '12.6f')} "
-            f"{_cell(point['transmission_error_arcsec'], '13.5f')} "
-            f"{_cell(point['transmission_error_relative_arcsec'], '11.5f')} "
-            f"{_cell(axes['semi_major_mm'], '9.3f')} {_cell(axes['semi_minor_mm'], '9.4f')}  "
-            f"{' '.join([point['status'], *point['flags'], *_remarks(point)])}"
-        )
-    return "\n".join(lines) + "\n"
 
 
-def _not_aligned(drive, points):
-    """Which errors of the assembly are given where flanks touch on edges or at corners; nothing elsewhere."""
-    count = sum(point["status"] in ON_EDGES for point in points)
-    if not count:
-        return ""
-    errors = {key: value for key, value in drive.design.given().get("misalignment", {}).items() if value}
-    given = ", ".join(f"{key} = {value:g}" for key, value in errors.items())
-    said = [f"on an edge or at a corner at {count} of {len(points)} angles"]
-    if math.isfinite(rise := _out_of_line(drive, points)):
-        said.append(f"from one end of the contact line to the other the flanks are out of line by {1000 * rise:.3g} µm")
-    wheel_pitch = math.degrees(abs(drive.ratio) * drive.pitch()) * 3600.0
-    if any(abs(p["transmission_error_arcsec"]) > wheel_pitch for p in points if p["status"] in ON_EDGES):
-        said.append("somewhere the wheel turns by more than its pitch until this pair touches: other pairs do before")
-    said.append(f"errors of the assembly: {given}" if given else "the assembly has no errors")
-    return "; ".join(said) + "\n"
-
-
-def _enclosed(points):
-    """How many errors of contacts that are no tangencies are proved to lie between two numbers; nothing if none."""
-    radii = [p["certificate"]["radius"] for p in points if p.get("certificate", {}).get("outcome") == "enclosed"]
-    if not radii:
-        return ""
-    lines = [p["certificate"]["contact_line"] for p in points if p["certificate"]["contact_line"] is not None]
-    shown = [max(map(abs, line["apart_mm"])) for line in lines if line["outcome"] == "enclosed"]
-    said = f"enclosed: the error of {len(radii)} contacts on lines, edges or corners, within {max(radii):.0e} arcsec\n"
-    if shown:
-        said += f"enclosed: {len(shown)} of {len(lines)} lines, both flanks within {max(shown):.0e} mm all along\n"
-    return said
+def _line(point):
+    axes = point["ellipse"]
+    return (
+        f"{point['pinion_angle_deg']:>10.3f} {_cell(point['wheel_angle_deg'], '12.6f')} "
+        f"{_cell(point['transmission_error_arcsec'], '13.5f')} "
+        f"{_cell(point['transmission_error_relative_arcsec'], '11.5f')} "
+        f"{_cell(axes['semi_major_mm'], '9.3f')} {_cell(axes['semi_minor_mm'], '9.4f')}  "
+        f"{' '.join([point['status'], *point['flags'], *_remarks(point)])}\n"
+    )
 
 
 def _out_of_line(drive, points):
-    """The most by which flanks that touch on edges stand apart along what would be their line of contact, mm; NaN where
-    they have none, or touch in points.
+    """The most by which flanks that touch on edges stand apart along what would be their line of contact, mm; -infinity
+    where they have none, or touch in points.
     """
     search, _ = Search.of(drive)
-    angles = np.radians([point["pinion_angle_deg"] for point in points if point["status"] in ON_EDGES])
-    own = drive.design.mirror.sign * angles
+    own = drive.design.mirror.sign * np.radians([point["pinion_angle_deg"] for point in points])
     if search is None or not search.flank.pointless:
-        return math.nan
+        return -math.inf
     rises = [search.rise(*at) for at in zip(own, search.at(own), strict=True)]
-    return max((rise for rise in rises if math.isfinite(rise)), default=math.nan)
+    return max((rise for rise in rises if math.isfinite(rise)), default=-math.inf)
 
 
 def _remarks(point):

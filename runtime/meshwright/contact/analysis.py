@@ -271,6 +271,7 @@ def status_codes(*words):
     return [code for code, word in statuses().items() if word in words]
 
 
+@cache
 def status_text(word):
     """What a status word means, in a sentence."""
     return text(library().mw_status_text(status_codes(word)[0]))

@@ -8,7 +8,7 @@ import operator
 import re
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from numbers import Rational
 from typing import ClassVar, Protocol
@@ -115,6 +115,36 @@ class InWords:
 
 
 @dataclass(frozen=True)
+class Shown:
+    """Of how many contacts, of a ``total``, it is shown that each is the only one nearby; the largest ``width``,
+    arcseconds to either side, of their transmission errors; why others are not, counted; of how many ``besides`` the
+    like is shown otherwise.
+    """
+
+    count: int = 0
+    total: int = 0
+    width: float = 0.0
+    others: Counter = field(default_factory=Counter)
+    besides: int = 0
+
+    def __add__(self, more):
+        width = max(self.width, more.width)
+        sums = self.count + more.count, self.total + more.total
+        return Shown(*sums, width, self.others + more.others, self.besides + more.besides)
+
+    def said(self):
+        """The same in a sentence."""
+        if not self.total:
+            return ""
+        why = "; ".join(f"{message} (at {_angles(count)})" for message, count in self.others.items())
+        if not self.count:
+            return f"not certified: {why}"
+        number = "every contact" if self.count == self.total and not self.besides else f"{self.count} of {self.total} contacts"
+        rest = f"; not: {why}" if why else ""
+        return f"certified: {number} the only one nearby, transmission error within {self.width:.0e} arcsec{rest}"
+
+
+@dataclass(frozen=True)
 class Certificates(InWords):
     """What is shown at N pinion angles.
 
@@ -161,22 +191,18 @@ class Certificates(InWords):
         """Names of the flags by which bodies surely cannot make the contact at point k."""
         return [name for name, word in self.flags(k).items() if word == "yes" and impossible(name)]
 
+    def shown(self, without=()):
+        """What is :class:`Shown` of all but those at some rows, of which the like is shown otherwise."""
+        left = [k for k in range(len(self.records)) if k not in without]
+        errors = self.error_arcsec()[left]
+        outcomes, reasons, messages = self.outcomes, self.reasons, self.messages
+        count = sum(outcomes[k] == "unique" for k in left)
+        width = float(np.nanmax(errors[:, 1] - errors[:, 0])) / 2 if count else 0.0
+        return Shown(count, len(left), width, Counter(messages[k] for k in left if reasons[k]), len(without))
+
     def said(self, without=()):
         """In a sentence, how many contacts are certain, and why others are not; of all but those at some rows."""
-        left = [k for k in range(len(self.records)) if k not in without]
-        if not left:
-            return ""
-        outcomes, errors = [self.outcomes[k] for k in left], self.error_arcsec()[left]
-        shown, total = outcomes.count("unique"), len(outcomes)
-        reasons, messages = self.reasons, self.messages
-        others = Counter(messages[k] for k in left if reasons[k])
-        why = "; ".join(f"{message} (at {_angles(count)})" for message, count in others.items())
-        if not shown:
-            return f"not certified: {why}"
-        width = np.nanmax(errors[:, 1] - errors[:, 0]) / 2
-        number = "every contact" if shown == total and not without else f"{shown} of {total} contacts"
-        rest = f"; not: {why}" if why else ""
-        return f"certified: {number} the only one nearby, transmission error within {width:.0e} arcsec{rest}"
+        return self.shown(without).said()
 
     def to_plain(self):
         """A certificate each, as plain data of the ``meshwright.tca/1`` schema."""
@@ -221,10 +247,7 @@ def certify(drive, angles, solutions, lines, degrees=None):
         isinstance(degrees, Sequence) and len(degrees) == len(angles) and all(isinstance(d, Rational) for d in degrees)
     ):
         raise UsageError(f"degrees: must be exact; give {len(angles)} fractions, one an angle")
-    if degrees is None:
-        phi = exact.doubles(sign * np.asarray(angles))
-    else:
-        phi = exact.wides([tuple(sorted(sign * end for end in exact.radians(angle))) for angle in degrees])
+    phi = exact.doubles(sign * np.asarray(angles)) if degrees is None else exact.angles(degrees, sign)
     solutions, lines = np.ascontiguousarray(solutions, dtype=float), np.ascontiguousarray(lines, dtype=np.int32)
     return _all(drive, phi, library().mw_certify_points, pointer(solutions), pointer(lines, "int[]"))
 

@@ -17,6 +17,9 @@ PI = (
     Fraction("3.141592653589793238462643383279502884197169399375105820974945"),
 )
 
+#: What both are whole multiples of the inverse of.
+_PI_OF = 10**60
+
 
 def decimal(number):
     """The decimal that a double was written as, a fraction."""
@@ -25,11 +28,22 @@ def decimal(number):
 
 def wide(low, high):
     """(high, low, radius) of doubles: every number between two fractions is within ``radius`` of ``high + low``."""
-    middle = (low + high) / 2
-    first = float(middle)
-    second = float(middle - Fraction(first))
-    rest = (high - low) / 2 + abs(middle - Fraction(first) - Fraction(second))
-    return first, second, upwards(rest)
+    of = low.denominator * high.denominator
+    return _wide(low.numerator * high.denominator, high.numerator * low.denominator, of)
+
+
+def _wide(low, high, of):
+    """The same of whole numbers, over another one."""
+    middle, twice = low + high, 2 * of
+    first = middle / twice
+    a, b = first.as_integer_ratio()
+    middle, by = middle * b - a * twice, twice * b
+    second = middle / by
+    c, d = second.as_integer_ratio()
+    rest, by = (high - low) * b * d + abs(middle * d - c * by), by * d
+    radius = rest / by
+    e, f = radius.as_integer_ratio()
+    return first, second, radius if e * by >= rest * f else math.nextafter(radius, math.inf)
 
 
 def upwards(value):
@@ -63,6 +77,16 @@ def radians(degrees):
     """Bounds of an angle in rad, given in degrees as a fraction."""
     ends = sorted(degrees * p / 180 for p in PI)
     return ends[0], ends[1]
+
+
+def angles(degrees, sign):
+    """An array of ``mw_wide`` of angles given in degrees as fractions, times a sign."""
+    ends = [sign * (p * _PI_OF).numerator for p in PI]
+    array = np.empty(len(degrees), dtype=record("mw_wide"))
+    for k, angle in enumerate(degrees):
+        low, high = sorted(angle.numerator * end for end in ends)
+        array[k] = _wide(low, high, 180 * angle.denominator * _PI_OF)
+    return array
 
 
 def bounds(entry):

@@ -16,7 +16,7 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.base.files import read_table
-from meshwright.base.plain import finite_or_none
+from meshwright.base.plain import finite_or_nones
 from meshwright.contact.velocities import velocities
 
 #: Header of a table of friction.
@@ -126,18 +126,18 @@ class Efficiency:
 
     def plain(self):
         """The points' part of the ``meshwright.tca/1`` document; None for what does not exist."""
+        numbers = (self.friction, self.self_locking, self.pinion_drives, self.wheel_drives)
         return [
             {
-                "friction": finite_or_none(self.friction[k]),
-                "self_locking_friction": finite_or_none(self.self_locking[k]),
-                "self_locking": bool(self.locked[k]) if np.isfinite(self.friction[k]) else None,
-                "efficiency": {
-                    "pinion_drives": finite_or_none(self.pinion_drives[k]),
-                    "wheel_drives": finite_or_none(self.wheel_drives[k]),
-                },
+                "friction": friction,
+                "self_locking_friction": locking,
+                "self_locking": None if friction is None else locked,
+                "efficiency": {"pinion_drives": pinion, "wheel_drives": wheel},
             }
-            for k in range(len(self.friction))
-        ]  # fmt: skip
+            for friction, locking, pinion, wheel, locked in zip(
+                *map(finite_or_nones, numbers), self.locked.tolist(), strict=True
+            )
+        ]
 
 
 def efficiency(drive, result, friction=None, moving=None):

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from meshwright.base.library import library, text
-from meshwright.base.plain import finite_or_none
+from meshwright.base.plain import finite_or_nones
 
 ARCSEC = np.pi / 648000.0
 
@@ -169,38 +169,34 @@ class TCA:
 
     def to_points(self):
         """The points as the plain data of the ``meshwright.tca/1`` schema."""
-        return [self._point(k) for k in range(len(self.angles))]
-
-    def _point(self, k):
-        solved = self.status[k] in SOLVED
-        smaller, larger = self.curvatures[k]
-        return {
-            "pinion_angle_deg": np.degrees(self.angles[k]).item(),
-            "status": self.status[k],
-            "message": self.messages[k],
-            "iterations": int(self.iterations[k]),
-            "residual": finite_or_none(self.residual[k]),
-            "wheel_angle_deg": finite_or_none(np.degrees(self.wheel_angles[k])),
-            "transmission_error_arcsec": finite_or_none(self.error[k] / ARCSEC),
-            "transmission_error_relative_arcsec": finite_or_none(self.relative_error[k] / ARCSEC),
-            "unknowns": {name: finite_or_none(values[k]) for name, values in self.unknowns.items()} if solved else {},
-            "contact_point_mm": _row(self.points[k]),
-            "contact_normal": _row(self.normals[k]),
-            **{f"contact_point_{name}_mm": _row(points[k]) for name, points in self.body_points.items()},
-            "curvature": {
-                "relative_min_per_mm": finite_or_none(smaller),
-                "relative_max_per_mm": finite_or_none(larger),
-                "major_direction": _row(self.major[k]),
-            },
-            "ellipse": {
-                "semi_major_mm": finite_or_none(self.semi_axes[k, 0]),
-                "semi_minor_mm": finite_or_none(self.semi_axes[k, 1]),
-            },
-            "lever_arms_mm": {name: finite_or_none(arms[k]) for name, arms in self.lever_arms.items()},
-            "instantaneous_ratio": finite_or_none(self.instantaneous_ratio[k]),
-            "flags": list(self.flags[k]),
-            "contact_line": None if self.lines[k] is None else self.lines[k].plain(),
+        unknowns, arms = _grouped(self.unknowns), _grouped(self.lever_arms)
+        columns = {
+            "pinion_angle_deg": np.degrees(self.angles).tolist(),
+            "status": self.status,
+            "message": self.messages,
+            "iterations": self.iterations.tolist(),
+            "residual": finite_or_nones(self.residual),
+            "wheel_angle_deg": finite_or_nones(np.degrees(self.wheel_angles)),
+            "transmission_error_arcsec": finite_or_nones(self.error / ARCSEC),
+            "transmission_error_relative_arcsec": finite_or_nones(self.relative_error / ARCSEC),
+            "unknowns": [found if solved else {} for found, solved in zip(unknowns, self.solved.tolist(), strict=True)],
+            "contact_point_mm": finite_or_nones(self.points),
+            "contact_normal": finite_or_nones(self.normals),
+            **{f"contact_point_{name}_mm": finite_or_nones(points) for name, points in self.body_points.items()},
+            "curvature": _grouped(
+                {
+                    "relative_min_per_mm": self.curvatures[:, 0],
+                    "relative_max_per_mm": self.curvatures[:, 1],
+                    "major_direction": self.major,
+                }
+            ),
+            "ellipse": _grouped({"semi_major_mm": self.semi_axes[:, 0], "semi_minor_mm": self.semi_axes[:, 1]}),
+            "lever_arms_mm": arms,
+            "instantaneous_ratio": finite_or_nones(self.instantaneous_ratio),
+            "flags": list(map(list, self.flags)),
+            "contact_line": [line and line.plain() for line in self.lines],
         }
+        return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
 
 def _chosen(column, rows):
@@ -226,5 +222,7 @@ def _put(column, rows, values):
     return new
 
 
-def _row(values):
-    return [float(v) for v in values] if np.all(np.isfinite(values)) else None
+def _grouped(columns):
+    """A dictionary a point of columns by name, as plain data."""
+    rows = zip(*map(finite_or_nones, columns.values()), strict=True)
+    return [dict(zip(columns, row, strict=True)) for row in rows]

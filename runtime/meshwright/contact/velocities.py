@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.library import library, pointer
+from meshwright.base.plain import finite_or_nones
 from meshwright.contact.placement import placed
 
 
@@ -48,14 +49,16 @@ class Velocities:
 
     def plain(self):
         """The points' part of the ``meshwright.tca/1`` document; None for what is not a finite number."""
-        sliding, entraining, specific = self.sliding, self.entraining, self.specific_sliding
+        specific = {name: finite_or_nones(values) for name, values in self.specific_sliding.items()}
         return [
             {
-                "sliding_velocity_mm_per_rad": _row(sliding[k]),
-                "entraining_velocity_mm_per_rad": _row(entraining[k]),
-                "specific_sliding": {name: _row(values[k]) for name, values in specific.items()},
+                "sliding_velocity_mm_per_rad": sliding,
+                "entraining_velocity_mm_per_rad": entraining,
+                "specific_sliding": dict(zip(specific, each, strict=True)),
             }
-            for k in range(len(sliding))
+            for sliding, entraining, *each in zip(
+                finite_or_nones(self.sliding), finite_or_nones(self.entraining), *specific.values(), strict=True
+            )
         ]
 
 
@@ -79,17 +82,9 @@ def velocities(drive, result):
 def _of_point(drive, angles, solutions, rows):
     """dr/dφ1 (N, 3) of the right-hand drive's contact points in these rows (N,) of bool, NaN elsewhere."""
     m, p = drive.design.model, drive.design.parameters
-    moving, s, unchanged, dx = np.full((len(angles), 3), np.nan), np.empty(m.ns), np.zeros(m.np), np.empty(m.nx)
-    m.setup(pointer(p), pointer(s))
-    dr = np.empty(3)
-    for i in np.flatnonzero(rows):
-        m.set_phi(pointer(s), angles[i])
-        x = np.ascontiguousarray(solutions[i])
-        arguments = map(pointer, (s, x, dx, dr))
-        if library().mw_contact_tangent(m, pointer(p), pointer(unchanged), angles[i], 1.0, *arguments) >= 0:
-            moving[i] = dr
-    return moving
-
-
-def _row(values):
-    return values.tolist() if np.isfinite(values).all() else None
+    found, s, work = np.full((len(angles), 3), np.nan), np.empty(m.ns), np.empty(m.np + m.nx)
+    phi, x = np.ascontiguousarray(angles[rows]), np.ascontiguousarray(solutions[rows])
+    moving = np.empty((len(phi), 3))
+    library().mw_contact_motion(m, pointer(p), pointer(phi), len(phi), pointer(x), *map(pointer, (s, work, moving)))
+    found[rows] = moving
+    return found

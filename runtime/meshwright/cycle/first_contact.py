@@ -10,11 +10,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
-from meshwright.base.library import ffi, library, pointer
-from meshwright.base.plain import finite_or_none
+from meshwright.base.library import ffi, library, pointer, record
+from meshwright.base.plain import finite_or_none, finite_or_nones
 from meshwright.contact.placement import placed, placements_at
 from meshwright.contact.results import SOLVED
 from meshwright.flank.bounds import OPEN
@@ -35,6 +36,22 @@ ANGLES, PITCHES, BEYOND = 9, 0.5, 4.0
 
 #: Which of the known contacts, by distance in angle, the search starts from until one leads to the angle asked for.
 STARTS = (0, 1, 2, 4, 8, 16, 32)
+
+#: Between two angles what leads at them and at one between is followed, not searched for, where that is shown to lead:
+#: over this share of a pitch at most, and where there are more than so many angles between.
+STRETCH, FEWEST_BETWEEN = 0.125, 6
+
+#: First contacts that are kept of a drive: more are those of long ranges, which nobody asks for twice.
+KEPT = 20_000
+
+#: What the search of one angle resolves, mm along the normal: RESOLUTION of runtime/c/first/cover.h.
+RESOLUTION = 1e-4
+
+#: Flanks that stand apart by more beside a place of first contact, mm, are level along no curve through it.
+CLEARLY_APART = 1e-6
+
+#: Of more known contacts, one for each step of the pinion is enough to choose from.
+MANY = 512
 
 #: Searches that come to the angle and find places, but no extreme of them, or no place, before it is given up.
 SEARCHES = 2
@@ -129,21 +146,27 @@ class FirstContacts:
             return " on ".join(f"{edge} of the {member}" for edge, member in pairs)
         return f"{self.kinds[k]} of the {self.members[k]} ({', '.join(self.edges[k])})"
 
-    def point(self, k, errors):
-        """The entry ``first_contact`` of point k of a TCA with transmission errors (N,), rad; None if there is none."""
-        if self.kinds[k] is None:
-            return None
-        overlap = self.overlaps(errors)[k]
-        return {
-            "kind": self.kinds[k],
-            "member": self.members[k],
-            "limits": list(self.limits[k]),
-            "edges": [f"{edge} of the {member}" for edge, member in zip(self.edges[k], self.holders[k], strict=True)],
-            "point_mm": self.points[k].tolist(),
-            "transmission_error_arcsec": float(np.degrees(self.errors[k]) * 3600.0),
-            "overlap_mm": float(overlap) if math.isfinite(overlap) else None,
-            "unresolved_mm": float(self.unresolved[k]),
-        }
+    def plain(self, errors):
+        """The entries ``first_contact`` of a TCA with transmission errors (N,), rad; None where there is none."""
+        columns = (
+            self.kinds, self.members, self.limits, self.edges, self.holders, self.points.tolist(),
+            (np.degrees(self.errors) * 3600.0).tolist(), finite_or_nones(self.overlaps(errors)),
+            self.unresolved.tolist(),
+        )  # fmt: skip
+        return [None if row[0] is None else _entry(*row) for row in zip(*columns, strict=True)]
+
+
+def _entry(kind, member, limits, edges, holders, point, error, overlap, unresolved):
+    return {
+        "kind": kind,
+        "member": member,
+        "limits": list(limits),
+        "edges": [f"{edge} of the {holder}" for edge, holder in zip(edges, holders, strict=True)],
+        "point_mm": point,
+        "transmission_error_arcsec": error,
+        "overlap_mm": overlap,
+        "unresolved_mm": unresolved,
+    }
 
 
 def first_contacts(drive, angles, result=None):
@@ -196,71 +219,98 @@ def _gathered(drive, angles, found, lines, reason=""):
     """First contacts ``found`` at angles (N,), with their ``lines``."""
     unknown, untouched = (np.array([f is what for f in found], dtype=bool) for what in (UNKNOWN, None))
     found = [None if f in (None, UNKNOWN, OPEN_ENDED) else f for f in found]
-    mirror, nothing = drive.design.mirror, np.full(3, np.nan)
-    bodies = drive.design.description["bodies"]
-    named = [_held(bodies, f, line) for f, line in zip(found, lines, strict=True)]
-    kinds, members, limits, holders = zip(*named, strict=True) if named else ((), (), (), ())
-    shown = [f if line is None else line.middle for f, line in zip(found, lines, strict=True)]
-
-    def column(of, missing=math.nan, at=shown):
-        return np.array([missing if f is None else of(f) for f in at])
-
+    mirror = drive.design.mirror
+    shown = _records([f if line is None else line.middle for f, line in zip(found, lines, strict=True)])
+    solutions = _all_unknowns(drive, shown)
+    kinds, members, limits, holders = _held(drive.design.description["bodies"], found, shown, lines)
     return FirstContacts(
         angles=angles,
         kinds=kinds,
         members=members,
         limits=limits,
         holders=holders,
-        edges=_edges(drive, shown, holders, limits),
-        errors=mirror.sign * column(lambda f: f.wheel_turn),
-        points=mirror.flip * column(lambda f: np.array(list(f.point)), nothing).reshape(-1, 3),
-        normals=mirror.flip * column(lambda f: np.array(list(f.normal)), nothing).reshape(-1, 3),
-        levers=mirror.sign * column(lambda f: f.lever),
-        solutions=np.array([np.full(drive.model.nx, np.nan) if f is None else _unknowns(drive, f) for f in shown]),
+        edges=_edges(drive, solutions, holders, limits),
+        errors=mirror.sign * shown["wheel_turn"],
+        points=mirror.flip * shown["point"],
+        normals=mirror.flip * shown["normal"],
+        levers=mirror.sign * shown["lever"],
+        solutions=solutions,
         lines=tuple(line if line is None else line.mirrored(mirror) for line in lines),
-        unresolved=np.where(unknown, np.inf, column(lambda f: f.unresolved, at=found)),
+        unresolved=np.where(unknown, np.inf, _records(found)["unresolved"]),
         untouched=untouched,
         reason=reason,
     )
 
 
-def _held(bodies, found, line=None):
-    """Kind, member, limits and whose they are of a place, or of a line through it."""
-    if found is None:
-        return None, None, (), ()
-    if line is not None:
-        found = line.middle
-    held = [(found.member[k], found.limit[k]) for k in (0, 1) if found.limit[k] >= 0]
+def _records(places):
+    """What C has of places (N,), an array of ``mw_first``; its numbers are not numbers where there is none."""
+    found = np.zeros(len(places), record("mw_first"))
+    size, view = found.itemsize, ffi.from_buffer(found) if len(places) else None
+    for k, place in enumerate(places):
+        if place is not None:
+            ffi.memmove(view + k * size, place, size)
+    missing = np.array([place is None for place in places], dtype=bool)
+    for name, (kind, _) in found.dtype.fields.items():
+        if kind.base == np.float64:
+            found[name][missing] = np.nan
+    return found
+
+
+def _all_unknowns(drive, records):
+    """Unknowns (N, nx) of the contacts at places."""
+    description, x = drive.design.description, np.empty((len(records), drive.model.nx))
+    for body, own in zip(description["bodies"], ("q_pinion", "q_wheel"), strict=True):
+        x[:, body["unknowns"]] = records[own][:, : len(body["unknowns"])]
+    x[:, description["error"]] = records["wheel_turn"]
+    return x
+
+
+def _held(bodies, found, shown, lines):
+    """Kinds, members, limits and whose they are of places, or of lines through them: (N,) each."""
+    held = zip(shown["member"].tolist(), shown["limit"].tolist(), found, lines, strict=True)
+    known = {}
+    keys = [None if f is None else (*member, *limit, line is None) for member, limit, f, line in held]
+    for key in set(keys):
+        known[key] = (None, None, (), ()) if key is None else _held_by(bodies, *key)
+    return tuple(zip(*(known[key] for key in keys), strict=True)) or ((), (), (), ())
+
+
+def _held_by(bodies, first, second, its_limit, other_limit, single):
+    """Of one place: members and limits that hold it, -1 for none; ``single``: no line through it."""
+    held = [(member, limit) for member, limit in ((first, its_limit), (second, other_limit)) if limit >= 0]
     names, whose = tuple(_event(bodies, *which) for which in held), tuple(bodies[m]["name"] for m, _ in held)
     if not held:
-        return "tangency" if line is None else "line", None, names, whose
+        return "tangency" if single else "line", None, names, whose
     if len(held) == 1:
         return "edge", whose[0], names, whose
-    if held[0][0] == held[1][0]:
+    if first == second:
         return "corner", whose[0], names, whose
     return "edge", "both", names, whose
 
 
-def _edges(drive, places, holders, limits):
-    """Words for the limits that hold places, which tell the two ends of a face."""
-    if not any("face" in names for names in limits):
-        return tuple(tuple(name.replace("_", " ") for name in names) for names in limits)
+def _edges(drive, solutions, holders, limits):
+    """Words for the limits that hold places with these unknowns (N, nx), which tell the two ends of a face."""
+    edges = [[name.replace("_", " ") for name in names] for names in limits]
     bodies = {body["name"]: body for body in drive.design.description["bodies"]}
-    (middle,) = start_values(drive, np.array([drive.design.reference_angle]))
-
-    def edge(place, member, name):
+    faces = {}
+    for k, (whose, names) in enumerate(zip(holders, limits, strict=True)):
+        for place, which in enumerate(zip(whose, names, strict=True)):
+            faces.setdefault(which, []).append((k, place))
+    (middle,) = start_values(drive, np.array([drive.design.reference_angle])) if faces else (None,)
+    for (member, name), where in faces.items():
         margin = next((m for m in bodies[member]["margins"] if m["event"] == name), None)
         if margin is None or margin["role"] != "face":
-            return name.replace("_", " ")
+            continue
         own = bodies[member]["unknowns"]
-        both = drive.flank(member)(np.stack([_unknowns(drive, place)[own], middle[own]]))
-        there, here = both.points * drive.design.mirror.flip
+        both = drive.flank(member)(np.vstack([solutions[[k for k, _ in where]][:, own], middle[own]])).points
+        both = both * drive.design.mirror.flip
         if margin.get("ends"):
-            return margin["ends"][int(np.linalg.norm(there) > np.linalg.norm(here))]
-        return ("left face", "right face")[int(there[2] > here[2])]
-
-    named = zip(places, holders, limits, strict=True)
-    return tuple(tuple(edge(p, *which) for which in zip(whose, names, strict=True)) for p, whose, names in named)
+            words, far = margin["ends"], np.linalg.norm(both, axis=1)
+        else:
+            words, far = ("left face", "right face"), both[:, 2]
+        for (k, place), beyond in zip(where, far[:-1] > far[-1], strict=True):
+            edges[k][place] = words[int(beyond)]
+    return tuple(map(tuple, edges))
 
 
 def _event(bodies, member, limit):
@@ -368,7 +418,7 @@ class TouchingLine:
     def middle(self):
         """The place nearest to the middle of its length."""
         along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(self.points, axis=0), axis=1))])
-        return self.places[int(np.argmin(np.abs(along - 0.5 * along[-1])))]
+        return ffi.addressof(self.places, int(np.argmin(np.abs(along - 0.5 * along[-1]))))
 
     def unknowns(self, drive):
         """Unknowns of contact at its points, right hand: (M, nx)."""
@@ -393,6 +443,28 @@ class TouchingLine:
             "length_mm": self.length,
             "curvature_per_mm": [finite_or_none(value) for value in self.curvatures],
         }
+
+
+@dataclass(frozen=True)
+class Searched:
+    """The search at an ``angle``: what it ``found``, as :meth:`Search.at` gives it, the ``last`` ``mw_first`` that C
+    gave, and what that has looked at.
+    """
+
+    angle: float
+    found: object
+    last: object
+    met: object
+
+    @property
+    def held(self):
+        """Status, limits, their members, whether flanks are open; None where C has not looked at all of the flank."""
+        last, lib = self.last, library()
+        if last is None or self.met is None or (last.status < 0 and last.status != lib.MW_NO_CONTACT):
+            return None
+        if self.found is UNKNOWN or (last.status < 0) != (self.found in (None, OPEN_ENDED)):
+            return None
+        return last.status, tuple(last.limit), tuple(last.member), self.found is OPEN_ENDED
 
 
 @dataclass(frozen=True)
@@ -429,26 +501,109 @@ class Search:
         work = np.empty(max(sizes))
         return cls(drive, flank, work, solutions, angles, turn, sense), ""
 
+    @cached_property
+    def lasting_work(self):
+        """What ``mw_first_lasts`` works in."""
+        return np.empty(library().mw_first_lasts_work())
+
     def at(self, angles, until=None):
         """``mw_first``, None, UNKNOWN or OPEN_ENDED at angles (N,) of the right-hand drive; beyond the turn of the
         wheel ``until``, perhaps of a later contact.
         """
         if until is not None:
-            return [self._one(angle, until) for angle in angles]
-        known = self.flank.found
-        for angle in angles:
-            if float(angle) not in known:
-                known[float(angle)] = self._one(angle, -self.sense * math.inf)
-        return [known[float(angle)] for angle in angles]
+            return [self._one(angle, until)[0] for angle in angles]
+        known, angles = self.flank.found, np.asarray(angles, dtype=float).tolist()
+        if len(known) > KEPT:
+            known.clear()
+        new = np.array(sorted(set(angles).difference(known)))
+        known |= zip(new.tolist(), self._all(new), strict=True)
+        return [known[angle] for angle in angles]
+
+    def _all(self, angles):
+        """The same at ascending angles: searched for at some, followed from these where what they have surely leads."""
+        found: list = [None] * len(angles)
+
+        def between(low, high, begin, end):
+            if high - low < 2:
+                return
+            middle = (low + high) // 2
+            here = self._node(angles[middle], high - low > FEWEST_BETWEEN)
+            followed = None
+            if high - low > FEWEST_BETWEEN and self._lasts(begin, here, end):
+                followed = self._along((begin, here, end), angles[low + 1 : high])
+            if followed is None:
+                between(low, middle, begin, here)
+                between(middle, high, here, end)
+            else:
+                found[low + 1 : high] = followed
+            found[middle] = here.found
+
+        ends = [self._node(angles[k], len(angles) > FEWEST_BETWEEN) for k in ((0, -1) if len(angles) else ())]
+        if ends:
+            found[0], found[-1] = (node.found for node in ends)
+            between(0, len(angles) - 1, *ends)
+        return found
+
+    def _node(self, angle, kept):
+        """The search at an angle; ``kept``: with what it has looked at."""
+        found, last = self._one(angle, -self.sense * math.inf)
+        met = self.work[: library().mw_first_met_size(self.flank.table.vertices)].copy() if kept else None
+        return Searched(angle, found, last, met)
+
+    def _lasts(self, *nodes):
+        """Whether what three searches found leads at every angle between them."""
+        begin, middle, end = (node.angle for node in nodes)
+        if end - begin > STRETCH * self.drive.pitch() or len({node.held for node in nodes}) != 1:
+            return False
+        if nodes[0].held is None:
+            return False
+        stand = _matrices(self.drive, np.array([begin, middle, end]))
+        three, met = ffi.new("mw_first[3]"), ffi.new("double *[3]", [pointer(node.met) for node in nodes])
+        for k, node in enumerate(nodes):
+            three[k] = node.last[0]
+        return bool(
+            library().mw_first_lasts(
+                *self._model, *map(pointer, stand), (middle - begin) / (end - begin), self.turn, self.sense, met, three,
+                pointer(self.lasting_work),
+            )  # fmt: skip
+        )
+
+    def _along(self, nodes, angles):
+        """What :meth:`at` gives at ascending angles between three searches that have what leads there; None where it
+        is not where they say it is.
+        """
+        if nodes[0].found in (None, OPEN_ENDED):
+            return [nodes[0].found] * len(angles)
+        stand = _matrices(self.drive, angles)
+        records, n = np.zeros(len(angles), record("mw_first")), len(angles)
+        library().mw_first_along(
+            *self._model, *map(pointer, stand), n, self.turn, self.sense, nodes[0].last, pointer(records, "mw_first[]"),
+        )  # fmt: skip
+        at, turns = np.array([node.angle for node in nodes]), [node.last.wheel_turn for node in nodes]
+        parabola = sum(
+            turn * np.prod([(angles - other) / (own - other) for other in at if other != own], axis=0)
+            for own, turn in zip(at, turns, strict=True)
+        )
+        good = (records["status"] >= 0) & (
+            np.abs((records["wheel_turn"] - parabola) * records["lever"]) <= 0.5 * RESOLUTION
+        )
+        for name in ("limit", "member"):
+            good &= (records[name] == list(getattr(nodes[0].last, name))).all(axis=1)
+        records["unresolved"] = max(node.last.unresolved for node in nodes)
+        many = ffi.from_buffer("mw_first[]", records)
+        return [ffi.new("mw_first *", many[k]) for k in range(len(angles))] if good.all() else None
 
     def _one(self, angle, until):
-        """``mw_first`` at one angle: from a contact known there, the start values, other contacts and, where that is
-        known or no contact is one in a point, the ridge.
+        """As :meth:`at` at one angle, and the last ``mw_first`` that C gave: from a contact known there, the start
+        values, other contacts and, where that is known or no contact is one in a point, the ridge.
         """
-        order = np.argsort(np.abs(self.solved_at - angle), kind="stable")
+        away = np.abs(self.solved_at - angle)
+        order = np.argsort(away, kind="stable")
+        steps = np.floor(away[order] / self.drive.pitch() * STEPS_PER_PITCH)  # of those that are close together, one
+        order = order[np.unique(steps, return_index=True)[1]] if len(order) > MANY else order
         starts = [(self.solved_at[k], self.solutions[k]) for k in order[[i for i in STARTS if i < len(order)]]]
         starts.insert(int(bool(starts) and starts[0][0] == angle), (angle, None))
-        ended, empty = 0, 0
+        ended, empty, found = 0, 0, None
         ridge = [(angle, RIDGE)] if self.flank.pointless or self.flank.ridges else []
         for known_at, x in (*starts, *ridge):
             if x is RIDGE:
@@ -460,14 +615,14 @@ class Search:
                 continue
             found = self._from(known_at, start_values(self.drive, [angle])[0] if x is None else x, angle, until)
             if found.status >= 0:
-                return found
+                return found, found
             if found.open:
-                return OPEN_ENDED
+                return OPEN_ENDED, found
             nowhere = found.status == library().MW_NO_CONTACT
             if nowhere and found.met:
-                return None
+                return None, found
             ended, empty = ended + (found.met > 0), empty + nowhere
-        return UNKNOWN if ended else None
+        return UNKNOWN if ended else None, found
 
     def _from(self, known_at, x, angle, until):
         pinion, wheel = self._way(known_at, angle - known_at)
@@ -488,8 +643,7 @@ class Search:
     def _way(self, known_at, away):
         """Placements (M, 12) of both members from an angle to another one, ``away`` from it."""
         steps = 1 + math.ceil(abs(away) / self.drive.pitch() * STEPS_PER_PITCH - 1e-9)
-        stand = _placed(self.drive, known_at + away * (np.linspace(0.0, 1.0, steps) if steps > 1 else 1.0))
-        return [np.ascontiguousarray(matrices[:, :3].reshape(-1, 12)) for matrices in stand]
+        return _matrices(self.drive, known_at + away * (np.linspace(0.0, 1.0, steps) if steps > 1 else np.ones(1)))
 
     def first(self, angles):
         """:class:`FirstContacts` at pinion angles (N,), with the design's hand."""
@@ -500,7 +654,10 @@ class Search:
     def lines(self, angles, found):
         """The :class:`TouchingLine` through each of ``found`` at angles (N,), None where there is none."""
         without = (None, UNKNOWN, OPEN_ENDED)
-        return [None if f in without else self.line(angle, f) for angle, f in zip(angles, found, strict=True)]
+        return [
+            None if f in without or f.apart > CLEARLY_APART else self.line(angle, f)
+            for angle, f in zip(angles, found, strict=True)
+        ]
 
     def line(self, angle, found, flat=False):
         """The :class:`TouchingLine` through a place, along which the wheel angle is one but for 1e-9 mm: of both
@@ -669,11 +826,11 @@ def _on_regular_flanks(drive, solutions):
     return np.all([~(drive.flank(b["name"])(solutions[:, b["unknowns"]]).regular < 0.0) for b in bodies], axis=0)
 
 
-def _placed(drive, angles):
-    """Placements (N, 4, 4) of pinion and wheel at angles (N,), the wheel without transmission error."""
-    angles = np.atleast_1d(angles)
+def _matrices(drive, angles):
+    """Placements (N, 12) of pinion and wheel, rows of four, at angles (N,), the wheel without transmission error."""
     matrices = placed(drive, angles, drive.ratio * angles).matrices
-    return [matrices[b["name"]] for b in drive.design.description["bodies"]]
+    bodies = drive.design.description["bodies"]
+    return [np.ascontiguousarray(matrices[body["name"]][:, :3].reshape(-1, 12)) for body in bodies]
 
 
 def _senses(drive, angle, x):

@@ -1,12 +1,17 @@
 """A drive that turns on, all pairs and both flanks: error, ratio and backlash at pinion angles of any size."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.base.library import ffi, library, pointer, record
 from meshwright.contact.analysis import checked_angles, statuses
+from meshwright.contact.placement import placed
+from meshwright.cycle.backlash import offsets
+from meshwright.cycle.first_contact import STATUSES
+from meshwright.cycle.pairs import Mesh
+from meshwright.cycle.rigid import RigidTeeth
 
 
 @dataclass(frozen=True)
@@ -16,7 +21,8 @@ class Side:
     ``statuses``: a contact's, or why there is none, in the words of ``tca``. ``pairs``: numbers of the pairs that lead,
     counted from the reference of this flank. ``touching``: how many pairs touch within their limits, 0 along lines.
     ``errors``: transmission error in the driving flank's angles, rad. ``ratios``: d(wheel angle)/d(pinion angle).
-    ``edges``: where the edge of a pair outside its limits may touch first; the error is then that of the others.
+    ``edges``: where the edge of a pair outside its limits may touch first, and is not searched for; the error is then
+    that of the others.
     """
 
     statuses: list[str]
@@ -44,10 +50,11 @@ class Cycle:
     backlash: np.ndarray
 
 
-def cycle(drive, angles, coast=None):
+def cycle(drive, angles, coast=None, edges=False):
     """:class:`Cycle` of a drive at pinion angles (N,), rad, in any order; quickest where each is near the one before.
 
     ``coast``: the drive of the other flank, where that has a design of its own; without it that side has no contact.
+    ``edges``: search for edges and corners where they may touch first, which C leaves open, some milliseconds an angle.
     Raises :class:`~meshwright.base.errors.UsageError` for what is no angle or beyond 10¹² rad, or no other flank.
     """
     m, lib, sign = drive.model, library(), drive.design.mirror.sign
@@ -60,7 +67,7 @@ def cycle(drive, angles, coast=None):
     lib.mw_cycles(
         m, pointer(c), pointer(np.ascontiguousarray(sign * angles)), len(angles), pointer(found, "mw_cycle[]")
     )
-    return Cycle(
+    here = Cycle(
         angles=angles,
         pairs=(sign * found["pair"]).astype(np.int64),
         own_angles=sign * found["angle"],
@@ -68,6 +75,59 @@ def cycle(drive, angles, coast=None):
         coast=_side(found["coast"], sign),
         backlash=found["backlash"],
     )
+    return _with_edges(drive, other, here) if edges else here
+
+
+def _with_edges(drive, other, found):
+    """The :class:`Cycle` with edges and corners on both flanks where they touch first."""
+    mesh = Mesh.of(drive)
+    driven, coast = _searched(mesh, found.drive, found.pairs, found.own_angles), found.coast
+    if other is not None:
+        there, sign, tooth = Mesh.of(other), drive.design.mirror.sign, drive.pitch() * drive.ratio
+        pinion, wheel = (sign * offset for offset in offsets(mesh, there))
+        shift = drive.ratio * pinion + wheel
+        coast = replace(coast, errors=coast.errors - shift)
+        coast = _searched(there, coast, found.pairs, found.own_angles + pinion)
+        errors = coast.errors + shift
+        coast = replace(coast, errors=errors - tooth * np.round((errors - driven.errors) / tooth))
+    backlash = mesh.sense * (coast.errors - driven.errors)
+    return replace(found, drive=driven, coast=coast, backlash=backlash)
+
+
+def _searched(mesh, side, pairs, angles):
+    """A side of a drive with the first contact of all pairs at own angles (N,) of ``pairs`` where it is left open."""
+    rows = np.flatnonzero(side.edges)
+    teeth = (mesh.rigid or RigidTeeth.of(mesh)) if rows.size else None
+    if teeth is None:
+        return side
+    leads = [teeth.leader(angle) for angle in angles[rows].tolist()]
+    known = [np.isfinite(ahead) and angle not in teeth.unknown
+             for (_, ahead), angle in zip(leads, angles[rows].tolist(), strict=True)]  # fmt: skip
+    rows, leads = rows[known], [lead for lead, is_known in zip(leads, known, strict=True) if is_known]
+    numbers = np.array([number for number, _ in leads], dtype=np.int64)
+    own = angles[rows] - numbers * mesh.drive.pitch()
+    first = mesh.search.first(own)
+    words = list(side.statuses)
+    for row, kind in zip(rows, first.kinds, strict=True):
+        words[row] = STATUSES[kind]
+    columns = {
+        "pairs": pairs[rows] + numbers, "errors": teeth.sense * np.array([ahead for _, ahead in leads]),
+        "ratios": _ratios(mesh.drive, own, first), "edges": np.zeros(len(rows), dtype=bool),
+    }  # fmt: skip
+    changed = {name: getattr(side, name).copy() for name in columns}
+    for name, values in columns.items():
+        changed[name][rows] = values
+    return replace(side, statuses=words, **changed)
+
+
+def _ratios(drive, angles, first):
+    """d(wheel angle)/d(pinion angle) at first contacts at angles (N,): the quotient of their lever arms."""
+    mirror, own = drive.design.mirror, drive.design.mirror.sign * angles
+    axes = placed(drive, own, drive.ratio * own + mirror.sign * first.errors).axes
+    points, normals = mirror.flip * first.points, mirror.flip * first.normals
+    pinion, wheel = (np.einsum("ni,ni->n", normals, np.cross(axes[name][0], points - axes[name][1]))
+                     for name in (body["name"] for body in drive.design.description["bodies"]))  # fmt: skip
+    return pinion / wheel
 
 
 def _side(found, sign):
