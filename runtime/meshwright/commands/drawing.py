@@ -5,6 +5,7 @@ Given sizes, those that relations derive from them, and what is assumed of the r
 
 from meshwright.base.files import write_json, write_text
 from meshwright.commands import options as common
+from meshwright.design.design import toml_text
 
 #: Longest relation that fits on a line; --json has all of it.
 WIDEST = 72
@@ -13,13 +14,17 @@ WIDEST = 72
 def add_arguments(parser):
     common.add_design(parser)
     parser.add_argument("--json", metavar="FILE|-", help="write as JSON")
+    parser.add_argument("--toml", metavar="FILE|-", help="write a design of the keys that follow, without the drawing")
 
 
 def run(options):
-    stated = common.drive_of(options).drawing()
+    drive = common.drive_of(options)
+    stated = drive.drawing()
+    if options.toml:
+        write_text(options.toml, toml_text(drive.design.given()))
     if options.json:
         write_json(options.json, stated.as_json())
-    else:
+    elif not options.toml:
         write_text("-", _page(stated))
     return 0
 

@@ -21,7 +21,7 @@ from meshwright.design import description as metadata
 from meshwright.design import schema
 from meshwright.design.mirror import Mirror
 from meshwright.design.nearest import filled_nearly
-from meshwright.design.relations import GIVEN, Completion
+from meshwright.design.relations import GIVEN, Completion, outer
 
 PACKAGED = Path(__file__).parent.parent / "designs"
 
@@ -318,7 +318,7 @@ def from_drawing(tables, places=None):
     if entries.keys() <= drawing.places.keys() - drawing.beside and closed >= {*required}:
         return tables
     completion = Completion.of(drawing, entries)
-    if error := completion.open_ends(required):
+    if error := completion.unsound() or completion.open_ends(required):
         raise error
     own = {place: p for place, p in drawing.places.items() if place not in drawing.beside}
     kept = {name: {k: v for k, v in entry.items() if f"{name}.{k}" not in entries or f"{name}.{k}" in own}
@@ -327,8 +327,9 @@ def from_drawing(tables, places=None):
     for place, p in own.items():
         known = completion.known.get(p["name"])
         if known and known.provenance != GIVEN and p["name"] not in completion.usual and known.value != p["default"]:
-            number = known.value / p["factor"]
-            changes[place] = round(number) if p["integer"] else number
+            number = outer(p, known.value)
+            if number != family.variant_defaults.get(place.removeprefix("design.")):
+                changes[place] = number
     return changed(kept, changes)
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from meshwright.base.expression import value
 from meshwright.design import description as metadata
 from meshwright.design import schema
-from meshwright.design.relations import ASSUMED, DERIVED, GIVEN, Completion, Known, Symbols
+from meshwright.design.relations import ASSUMED, DERIVED, GIVEN, Completion, Known, Symbols, outer
 
 #: Why a size has its value where a design's completion gives it without a relation of the drawing.
 COMPLETED = "completes the design"
@@ -60,7 +60,10 @@ def sheet(design):
     """The :class:`Sheet` of a :class:`~meshwright.design.design.Design`."""
     drawing = metadata.families(design.places)[design.family].drawing
     given = design.drawn or design.given()
-    completion = Completion.of(drawing, schema.drawn(design.family, given, design.places))
+    # a design of its own keys alone is what it is: a drawing says what it follows from, not whether it agrees
+    completion = Completion.of(
+        drawing, schema.drawn(design.family, given, design.places), judged=design.drawn is not None
+    )
     known = completion.known
     for number, p in zip(design.parameters, design.description["parameters"], strict=True):
         provenance = DERIVED if p["default"] is None else ASSUMED
@@ -75,7 +78,7 @@ def sheet(design):
         if (size := known.get(p["name"])) is not None:
             symbol = "" if p["name"] in (p["key"], p.get("place")) else p["name"]
             key = drawing.table["tables"].get(p["table"], "") + p["key"]
-            sizes[key] = Size(_outer(p, size.value), symbol, p["meaning"], size.provenance, size.why(p["name"]))
+            sizes[key] = Size(outer(p, size.value), symbol, p["meaning"], size.provenance, size.why(p["name"]))
     for s in design.description["sizes"]:
         if s["key"] not in sizes and math.isfinite(design.sizes[s["key"]]):
             sizes[s["key"]] = Size(design.sizes[s["key"]], "", s["meaning"], DERIVED, s["meaning"])
@@ -88,10 +91,3 @@ def sheet(design):
             checks[check["name"]] = Finding(word, holds, margin)
     return Sheet(design.family, design.as_solved(), sizes, checks)
 
-
-def _outer(parameter, number):
-    """An inner number in the unit of its key, or its word."""
-    words = {choice: word for word, choice in parameter["choices"].items()}
-    if number in words:
-        return words[number]
-    return round(number) if parameter["integer"] else number / parameter["factor"]

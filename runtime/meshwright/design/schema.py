@@ -236,6 +236,8 @@ def _form(family: metadata.Family) -> Form:
     }
     drawn: dict[str, dict[str, Key]] = {}
     for size in family.drawing.table["sizes"]:
+        if f"{size['table']}.{size['key']}" not in family.drawing.beside:
+            continue
         drawn.setdefault(size["table"], {})[size["key"]] = _parameter(size)
     return Form(loose, {"design": tables.pop("design"), **tables}, drawn)
 
@@ -266,10 +268,13 @@ def drawn(family: str, tables: dict, places: tuple | None = None) -> dict[str, f
     """What raw tables give of the sizes of a drawing, by "table.key", each checked by itself: see :func:`checked`."""
     known, drawing = form(family, places), metadata.families(places)[family].drawing
     found: dict[str, float | str] = {}
-    for table, entries in tables.items():
+    stated = [name for name in known.loose if f"{name}.{name}" in drawing.places and name in tables]
+    alone = {name: {name: tables[name]} for name in stated}
+    for table, entries in (tables | alone).items():
         for name, value in entries.items() if isinstance(entries, dict) else ():
             place = f"{table}.{name}"
-            key = known.tables.get(table, {}).get(name) or known.drawn.get(table, {}).get(name)
+            listed = {table: known.loose} if table in alone else known.tables
+            key = listed.get(table, {}).get(name) or known.drawn.get(table, {}).get(name)
             if value is None or not (place in drawing.places or (key is None and drawing.converted(place))):
                 continue
             number = (key or Key("number", bounds={"gt": 0.0, "le": LARGEST["mm"]})).checked(place, value)
@@ -321,7 +326,7 @@ def _family_schema(known: Form, drawing: Drawing) -> dict[str, object]:
     }  # fmt: skip
     whole = _object(known.loose)
     properties = {name: key.json_schema() for name, key in known.loose.items()} | tables
-    required = [*whole.get("required", []), *(name for name in known.tables if known.needed(name))]
+    required = [*whole.get("required", []), *(name for name, table in tables.items() if "required" in table)]
     return whole | {"properties": properties, "required": required}
 
 
