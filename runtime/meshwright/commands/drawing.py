@@ -6,9 +6,7 @@ Given sizes, those that relations derive from them, and what is assumed of the r
 from meshwright.base.files import write_json, write_text
 from meshwright.commands import options as common
 from meshwright.design.design import toml_text
-
-#: Longest relation that fits on a line; --json has all of it.
-WIDEST = 72
+from meshwright.design.drawing import shortened
 
 
 def add_arguments(parser):
@@ -33,9 +31,7 @@ def _page(stated):
     lines = [f"{stated.drive}, {stated.design['name'] or 'design'}"]
     for key, size in stated.sizes.items():
         value = size.value if isinstance(size.value, str | int) else f"{size.value:.9g}"
-        relation = size.relation if len(size.relation) <= WIDEST else f"{size.relation[: WIDEST - 1]}…"
-        lines.append(f"{key:<44} {value:<14} {size.provenance:<8} {relation}".rstrip())
+        lines.append(f"{key:<44} {value:<14} {size.provenance:<8} {shortened(size.relation)}".rstrip())
     for name, check in stated.checks.items():
-        said = check.word if check.holds else ("does not occur" if check.word == "occurs" else "not possible")
-        lines.append(f"{name:<44} {said}, margin {check.margin:.6g}")
+        lines.append(f"{name:<44} {check.said}, margin {check.margin:.6g}")
     return "\n".join(lines) + "\n"

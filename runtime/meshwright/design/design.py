@@ -117,7 +117,7 @@ def toml_text(tables):
 
 
 def _toml(value):
-    return json.dumps(value, ensure_ascii=False) if isinstance(value, str | bool) else repr(value)
+    return json.dumps(value, ensure_ascii=False) if isinstance(value, str | bool | list) else repr(value)
 
 
 def changed(tables, changes):
@@ -129,6 +129,8 @@ def changed(tables, changes):
         if not isinstance(target, dict):
             raise DesignError(place, value, f"{table} is not a table", "write table.key=value")
         target[key] = value
+    if isinstance(tables.get("assumed"), list):
+        tables["assumed"] = [place for place in tables["assumed"] if place not in changes]
     return tables
 
 
@@ -236,7 +238,7 @@ class Design:
         for name, entry in self.tables.items():
             if isinstance(entry, dict):
                 closed |= {name: kept} if (kept := {k: v for k, v in entry.items() if v is not None}) else {}
-            else:
+            elif entry != ():
                 closed[name] = entry
         return closed
 

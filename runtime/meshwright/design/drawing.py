@@ -8,16 +8,25 @@ from meshwright.design import description as metadata
 from meshwright.design import schema
 from meshwright.design.relations import ASSUMED, DERIVED, GIVEN, Completion, Known, Symbols, outer
 
+#: Longest relation that is shown in a line.
+WIDEST = 72
+
 #: Why a size has its value where a design's completion gives it without a relation of the drawing.
 COMPLETED = "completes the design"
+
+#: The same of a key that the design lists as assumed.
+PROPOSED = "proposed, not given"
 
 
 @dataclass(frozen=True)
 class Size:
-    """A size of a drawing: its ``value`` in the unit of its key, or its word; ``provenance`` is "given", "derived" or
-    "assumed", ``relation`` the equation that derives it or the reason for which it is assumed.
+    """A size of a drawing: the ``table`` of its key, its ``value`` in the unit of the key, or its word.
+
+    ``provenance`` is "given", "derived" or "assumed", ``relation`` the equation that derives it or the reason for which
+    it is assumed.
     """
 
+    table: str
     value: float | int | str
     symbol: str
     meaning: str
@@ -35,6 +44,11 @@ class Finding:
     word: str
     holds: bool
     margin: float
+
+    @property
+    def said(self):
+        """In words, for readers."""
+        return self.word if self.holds else {"occurs": "does not occur", "possible": "not possible"}[self.word]
 
 
 @dataclass(frozen=True)
@@ -54,6 +68,11 @@ class Sheet:
             "sizes": {key: {name: getattr(size, name) for name in shown} for key, size in self.sizes.items()},
             "checks": {name: {c.word: c.holds, "margin": c.margin} for name, c in self.checks.items()},
         }  # fmt: skip
+
+
+def shortened(relation):
+    """A relation or reason that fits on a line."""
+    return relation if len(relation) <= WIDEST else f"{relation[: WIDEST - 1]}…"
 
 
 def sheet(design):
@@ -78,10 +97,13 @@ def sheet(design):
         if (size := known.get(p["name"])) is not None:
             symbol = "" if p["name"] in (p["key"], p.get("place")) else p["name"]
             key = drawing.table["tables"].get(p["table"], "") + p["key"]
-            sizes[key] = Size(outer(p, size.value), symbol, p["meaning"], size.provenance, size.why(p["name"]))
+            source, why = size.provenance, size.why(p["name"])
+            if source == GIVEN and f"{p['table']}.{p['key']}" in design.tables["assumed"]:
+                source, why = ASSUMED, PROPOSED
+            sizes[key] = Size(p["table"], outer(p, size.value), symbol, p["meaning"], source, why)
     for s in design.description["sizes"]:
         if s["key"] not in sizes and math.isfinite(design.sizes[s["key"]]):
-            sizes[s["key"]] = Size(design.sizes[s["key"]], "", s["meaning"], DERIVED, s["meaning"])
+            sizes[s["key"]] = Size("design", design.sizes[s["key"]], "", s["meaning"], DERIVED, s["meaning"])
     symbols = Symbols({name: size.value for name, size in known.items()})
     checks = {}
     for check in drawing.table["checks"]:

@@ -2,6 +2,7 @@
 
 import json
 import math
+import textwrap
 from dataclasses import dataclass
 
 from meshwright.base.errors import UsageError
@@ -11,6 +12,10 @@ from meshwright.design.relations import Completion
 
 #: Sizes farther from the family's proportions than this share are told where flanks do not meet.
 ASTRAY = 0.1
+
+#: How the list of what is assumed is written.
+WIDTH = 100
+INDENTED = {"initial_indent": "  ", "subsequent_indent": "  ", "break_long_words": False, "break_on_hyphens": False}
 
 #: Why a value of one's own that no suggestion knows is there: whoever sets it has to see to the rest.
 ALONE = "as given; no other size follows it"
@@ -64,7 +69,10 @@ def first_design(family, name, words, given, own, determined=None, follow=None):
     flank = next(p for p in family.parameters if p["table"] == "flank")["choices"]
     above = {"drive": family.name, "name": name, "flank": next(iter(flank))}
     above |= {key: number for key, (number, _) in written.items() if "." not in key}
+    proposed = [place for place, (_, why) in chosen.items() if why]
     lines = [f"{key} = {_toml(number)}" for key, number in above.items()]
+    if proposed:
+        lines += ["assumed = [", *textwrap.wrap(", ".join(map(_toml, proposed)), WIDTH, **INDENTED), "]"]
     taken = _taken(family, above | {"design": {**words}}, written)
     tables = dict.fromkeys(["design", *(place.partition(".")[0] for place in [*written, *taken] if "." in place)])
     for table in tables:
@@ -74,7 +82,8 @@ def first_design(family, name, words, given, own, determined=None, follow=None):
         for place, (number, why) in written.items():
             if place.partition(".")[0] == table:
                 entry = f"{place.partition('.')[2]} = {_toml(number)}"
-                lines.append(f"{entry:<44}  # {why}" if why else entry)
+                said = f"assumed: {why}" if place in chosen and why else why
+                lines.append(f"{entry:<44}  # {said}" if said else entry)
         for place, (number, why) in taken.items():
             if place.partition(".")[0] == table:
                 entry = f"# {place.partition('.')[2]} = {_toml(number)}"
