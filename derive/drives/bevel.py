@@ -17,6 +17,7 @@ import sympy as sp
 
 from derive.drives import bevel_keys as k
 from derive.drives import outlines
+from derive.drives.bevel_drawing import drawing
 from derive.drives.bevel_keys import GEAR, PINION, Settings
 from derive.drives.bevel_rexs import EXCHANGE
 from derive.language import vectors as v
@@ -246,6 +247,7 @@ def bevel(method):
         loading=Loading(pairs=5, torque_on="wheel"),
         exchange=EXCHANGE,
         outline=outlines.bevel,
+        drawing=drawing(),
         sources=(Source("F. L. Litvin, A. Fuentes", "Gear Geometry and Applied Theory", 2004, "chapters 21, 22"),),
         flanks_apart=True,
         absorbs_errors=True,

@@ -1,7 +1,7 @@
 """First designs of the families: proportions of the standards, and what makes contact a point.
 
-Sources: ISO/TR 10828:2015 (worm gears), ISO 53:1998 and ISO 21771:2007 (cylindrical gears), ISO 23509:2016 (bevel
-gears, uniform depth); the packaged spherical and face worm designs, scaled, for the families that no standard treats.
+Sources: ISO/TR 10828:2015 (worm gears), ISO 53:1998 and ISO 21771:2007 (cylindrical gears); the packaged spherical and
+face worm designs, scaled, for the families that no standard treats.
 """
 
 from dataclasses import replace
@@ -248,47 +248,13 @@ def face_worm():
 
 
 def bevel():
-    """A face-milled spiral bevel pair of uniform depth at 90°: crown-gear generated, the pinion crowned lengthwise."""
-    degree = 180 / sp.pi
-    pitch = Suggestion("", (sp.atan2(z_1, z_2),), name="delta_1")
-    d_1 = pitch.symbol
-    cone = Suggestion("", (m * z_1 / (2 * sp.sin(d_1)),), name="A_o")
-    face = Suggestion("", (cone.symbol * sp.Rational(29, 100),), name="F", decimals=1)
-    mean = Suggestion("", (cone.symbol - face.symbol / 2,), name="A_m")
-    cutter = Suggestion(
-        "", (mean.symbol * sp.Rational(96, 100),), "cutter radius on the pitch plane", name="r_0", decimals=1
-    )
-    deep, high = sp.Rational(925, 1000) * m, sp.Rational(3, 4) * m
-    spiral, blade = sp.rad(35), sp.rad(20)
-
-    def member(table, radius, side, delta):
-        along = mean.symbol - radius * sp.sin(spiral)
-        across = radius * sp.cos(spiral)
-        return (
-            Suggestion(f"{table}.point_radius_mm", (radius - side * deep * sp.tan(blade),), "of the blade's line"),
-            Suggestion(f"{table}.blade_angle_deg", (sp.Integer(20),)),
-            Suggestion(f"{table}.radial_setting_mm", (sp.sqrt(along**2 + across**2),), "spiral angle 35° at mid face"),
-            Suggestion(f"{table}.cradle_angle_deg", (sp.atan2(across, along) * degree,)),
-            Suggestion(f"{table}.root_angle_deg", (delta * degree,), "uniform depth"),
-            Suggestion(f"{table}.sliding_base_mm", (-deep,), "dedendum"),
-            Suggestion(f"{table}.ratio_of_roll", (1 / sp.sin(delta),), "a crown gear generates both members"),
-            Suggestion(f"{table}.pitch_angle_deg", (delta * degree,)),
-            Suggestion(f"{table}.pitch_apex_mm", (sp.Integer(0),)),
-            Suggestion(f"{table}.face_angle_deg", (delta * degree,)),
-            Suggestion(f"{table}.face_apex_mm", (high / sp.sin(delta),), "addendum over the pitch cone"),
-            Suggestion(f"{table}.outer_cone_distance_mm", (cone.symbol,)),
-            Suggestion(f"{table}.face_width_mm", (face.symbol,), "0.29 outer cone distances"),
-        )
-
+    """Everything but module and teeth is the drawing's (:mod:`derive.drives.bevel_drawing`)."""
     return Outline(
         {"m": "outer transverse module", "z": "teeth of the pinion : teeth of the gear"},
         {},
         (
+            Suggestion("design.outer_transverse_module_mm", (m,)),
             Suggestion("design.pinion_teeth", (z_1,), whole=True),
             Suggestion("design.gear_teeth", (z_2,), whole=True),
-            Suggestion("design.shaft_angle_deg", (sp.Integer(90),)),
-            pitch, cone, face, mean, cutter,
-            *member("pinion", cutter.symbol + m / 2, 1, d_1),
-            *member("gear", cutter.symbol, -1, sp.pi / 2 - d_1),
         ),
-    )  # fmt: skip
+    )

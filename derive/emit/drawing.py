@@ -10,7 +10,7 @@ from derive.language.description import prefix
 from derive.language.drawing import Assumed, Drawing, Root
 from derive.language.symbols import CONVERSIONS, Table, interface_unit, parameter
 
-#: Tables of which no drawing states anything.
+#: Tables of which no drawing states anything, but what it has a default for.
 UNDRAWN = Table.FLANK, Table.MISALIGNMENT, Table.CONTACT
 
 #: Why a design has what its family's page says where nothing else is given.
@@ -20,7 +20,10 @@ USUAL = "the family's default"
 def table(drives):
     """The drawing of a family as plain data; of families that declare none, the conversions of their keys."""
     drawing = next((drive.drawing for drive in drives if drive.drawing), None)
-    tables = dict.fromkeys(str(p.table) for drive in drives for p in drive.parameters if p.table not in UNDRAWN)
+    stated = {d.target for d in drawing.defaults} if drawing else set()
+    tables = dict.fromkeys(
+        str(p.table) for drive in drives for p in drive.parameters if p.table not in UNDRAWN or p.symbol in stated
+    )
     return {
         "conversions": _conversions(),
         "tables": {name: "" if name in list(Table) else f"{name}." for name in tables},
@@ -36,11 +39,11 @@ def _conversions():
 
 
 def _table(drawing, drives):
-    named = {p.key: p for p in drawing.sizes}
+    named = {(p.table, p.key): p for p in drawing.sizes}
     own = {}
     for key, value, meaning in (size for drive in drives for size in drive.sizes):
         _, unit, _ = interface_unit(key)
-        own.setdefault(key, (named.get(key) or parameter(key, key, meaning), value))
+        own.setdefault((Table.DESIGN, key), (named.get((Table.DESIGN, key)) or parameter(key, key, meaning), value))
     relations = [_relation(r.size, r.value, r.solutions) for r in drawing.relations]
     relations += [_relation(size.symbol, value, {}) for size, value in own.values()]
     targets = {d.target for d in drawing.defaults}
@@ -68,6 +71,7 @@ def _solution(found):
         "unknown": found.unknown.name,
         "residual": prefix(found.residual),
         "between": [prefix(found.low), prefix(found.high)],
+        "where": [[q.name, _solution(solution)] for q, solution in found.where],
     }
 
 

@@ -33,4 +33,9 @@ def is_zero(a: sp.Expr) -> sp.Expr:
 
 def only_where_zero(a: sp.Expr, value: sp.Expr) -> sp.Expr:
     """``value`` where ``a`` is 0, else not a number: what has a default only as long as something else is not used."""
-    return value * sp.sqrt(sp.sign(_NOTHING - a**2))
+    return only_where_not_negative(_NOTHING - a**2, value)
+
+
+def only_where_not_negative(a: sp.Expr, value: sp.Expr) -> sp.Expr:
+    """``value`` where ``a`` is not negative, else not a number."""
+    return value * sp.sqrt(sp.sign(a))

@@ -17,12 +17,15 @@ from derive.language.symbols import Guard, Parameter, Quantity, Rule
 
 @dataclass(frozen=True)
 class Root:
-    """The ``unknown`` between ``low`` and ``high`` at which a monotone ``residual`` vanishes."""
+    """The ``unknown`` between ``low`` and ``high`` at which a monotone ``residual`` vanishes; ``where`` are quantities
+    that it reads, each found from the unknown and those before it.
+    """
 
     unknown: Quantity
     residual: sp.Expr
     low: sp.Expr
     high: sp.Expr
+    where: "tuple[tuple[Quantity, sp.Expr | Root], ...]" = ()
 
 
 @dataclass(frozen=True)

@@ -27,7 +27,8 @@ def _outline(outline: Outline, drives: Sequence[Drive]) -> Iterator[str]:
     words: dict[str, set[str]] = {}
     for key, word in ((key, word) for drive in drives for key, word in drive.variant.items()):
         words.setdefault(key, set()).update({word} if isinstance(word, str) else ())
-    places = {f"{p.table}.{p.key}" for drive in drives for p in drive.parameters} | {f"design.{key}" for key in words}
+    sizes = [p for drive in drives for p in (*drive.parameters, *(drive.drawing.sizes if drive.drawing else ()))]
+    places = {f"{p.table}.{p.key}" for p in sizes} | {f"design.{key}" for key in words}
     known = {q.name for q in OPTIONS}
     if unknown := outline.options.keys() - {"m", "z", "a"}:
         yield f"the options {', '.join(sorted(unknown))} are none of m, z and a; leave them out"

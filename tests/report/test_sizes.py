@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from meshwright import Drive, cli
+from meshwright import DesignError, Drive, cli
 from meshwright.contact.results import ARCSEC
 from meshwright.report.figures import pictures
 from meshwright.report.findings import findings
@@ -64,6 +64,28 @@ def test_a_drawing_states_each_member_and_both(analysed):
     assert not set(stated) & {row[3] for row in pinion.rows}
     assert {row[3]: row[1] for row in both.rows}["module_mm"] == "4"
     assert any(row[0].startswith("backlash") for row in both.rows)
+
+
+def test_a_drawing_says_where_each_size_is_from(tmp_path):
+    """Of a first design: what was asked for is given, what was proposed assumed, the rest derived by a relation."""
+    place = tmp_path / "first.toml"
+    words = ["new", "cylindrical-gears", "--m", "2", "--z", "20:45", "--set", "design.face_width_mm=15"]
+    assert cli.main([*words, "--out", str(place)]) == 0
+    shown = SimpleNamespace(drive=Drive.load(place), teeth={"wheel": 45}, running=None)
+    *members, checks = drawing(shown).tables
+    rows = {row[3]: row for table in members for row in table.rows}
+    assert rows["pinion_teeth"][5] == "given" and rows["face_width_mm"][5] == "given"
+    assert rows["pinion_lead_crowning_um"][5:] == ("assumed", "proposed, not given")
+    assert rows["pinion_span_mm"][4:6] == ("W_k_pinion", "derived") and "inv" not in rows["pinion_span_mm"][6]
+    assert ("undercut pinion", "does not occur") in {row[:2] for row in checks.rows}
+    changed = shown.drive.with_(design={"pinion_lead_crowning_um": 6.0})
+    assert changed.drawing().sizes["pinion_lead_crowning_um"].provenance == "given"
+
+
+@pytest.mark.parametrize("listed", ["design.face_width_mm", ["design.face_width"], [3]])
+def test_a_list_of_what_is_assumed_that_names_no_key_is_bad_input(listed):
+    with pytest.raises(DesignError, match="assumed"):
+        Drive.load("helical-crowned").with_(assumed=listed)
 
 
 def test_a_grinding_wheel_is_no_part_of_the_wheel():

@@ -1,8 +1,9 @@
 """Write a first design of a family from module and numbers of teeth: a commented TOML file to change from there.
 
 Sizes follow proportions that the family declares; each is written with the reason. --set gives any key its own value,
-or any size of a drawing from which keys follow. Nothing is written where flanks do not touch or a tooth is undercut or
-pointed, unless --force says so.
+or any size of a drawing from which keys follow; sizes of [design] and [blank] are options too, by their keys without
+the unit: --offset 30, --cutter-radius 114.3, --hand right. Nothing is written where flanks do not touch, teeth are
+undercut or pointed or the contact ratio is below 1, unless --force says so: sizes that would mend it are named.
 Members of a family that a first design is not are among the packaged ones: `meshwright drives` lists these and all
 keys, `meshwright show DESIGN` prints one to copy and change.
 """
@@ -44,9 +45,41 @@ def add_arguments(parser):
     )
     parser.add_argument("--name", help="name of the design and, unless --out says otherwise, of the file")
     parser.add_argument("--out", metavar="FILE|-", help="default: NAME.toml; it must not exist")
+    for stem in sorted({stem for family in description.families().values() for stem in _stems(family)}):
+        parser.add_argument(f"--{stem}", dest=f"{SIZE}{stem}", metavar="VALUE", help=argparse.SUPPRESS)
     parser.add_argument("--force", action="store_true", help="write a design that does not mesh, too")
     plain = parser.format_help
     parser.format_help = lambda: plain() + _offered()
+
+
+#: What the names of options begin with that are sizes of a drawing, and the tables of these, the first before others.
+SIZE = "size:"
+SIZES_OF = ("design", "blank")
+
+
+def _stems(family):
+    """Place of every size of a family by the option that stands for it: its key without the unit."""
+    found = {}
+    for table in SIZES_OF:
+        for place, p in family.drawing.places.items():
+            if p["table"] == table:
+                found.setdefault(p["key"].removesuffix(f"_{p['key_unit']}").replace("_", "-"), place)
+    return found | {"hand": "design.hand"} if family.handed else found
+
+
+def _sizes(family, options):
+    """The settings of --set and of options that are sizes, by "table.key"."""
+    own = dict(common.setting(text) for text in options.set)
+    stems = _stems(family)
+    for name, text in vars(options).items():
+        if name.startswith(SIZE) and text is not None:
+            stem = name.removeprefix(SIZE)
+            if stem not in stems:
+                near = difflib.get_close_matches(stem, stems, n=1)
+                remedy = f"did you mean --{near[0]}?" if near else "leave it out"
+                raise UsageError(f"--{stem} {text}: no size of the family {family.name}; {remedy}")
+            own |= [common.setting(f"{stems[stem]}={text}")]
+    return own
 
 
 def _offered():
@@ -79,15 +112,15 @@ def _teeth(text):
 def run(options):
     family = _family(options.family)
     words = _words(family, options.profile)
-    own = dict(common.setting(text) for text in options.set)
+    own = _sizes(family, options)
     asked = {"m": options.m or math.nan, "z_1": options.z[0], "z_2": options.z[1], "a": options.a}
     given, determined, sizes = _determined(family, asked, own)
     if math.isfinite(options.a) and "a" not in family.outline["options"]:
         raise UsageError(f"--a {options.a:g}: the centre distance of this family follows from its teeth; leave it out")
     name = options.name or "-".join([family.name, *words.values(), f"{options.z[0]}-{options.z[1]}"]).lower()
     follow = partial(_followed, family, sizes, own) if own else None
-    first = first_design(family, name, words, given, own, determined, follow)
     try:
+        first = first_design(family, name, words, given, own, determined, follow)
         drive = _drive(first)
     except DesignError as error:
         asked = " ".join(f"--{key}" for key in family.outline["options"])
@@ -97,14 +130,14 @@ def run(options):
     if place != "-" and Path(place).exists():
         raise UsageError(f"{place}: exists already; name another file with --out, or another --name")
     touch, seen = _contact(drive)
-    blamed = []
-    if not touch:
-        blamed = [*_blamed(family, own, lambda kept: first_design(family, name, words, given, kept, determined))]
-        blamed = blamed or common.beside_proportions(drive)
-    cut = [*_pointed(drive), *_undercut(drive)]
-    seen = "\n".join([seen, *blamed, *cut])
-    if (cut or not touch) and not options.force:
-        raise UsageError(f"{place}: nothing written, --force writes it all the same\n{seen}")
+    faults = [*([] if touch else [seen]), *_pointed(drive), *_undercut(drive), *(_short(drive) if touch else [])]
+    if faults:
+        made = partial(first_design, family, name, words, given, determined=determined)
+        blamed = [] if touch else [*_blamed(family, own, lambda kept: made(own=kept))]
+        mended = [*_mended(first, lambda size: made(own=own | size))]
+        seen = "\n".join([*faults, *blamed, *(mended or (common.beside_proportions(drive) if not blamed else []))])
+        if not options.force:
+            raise UsageError(f"{place}: nothing written, --force writes it all the same\n{seen}")
     write_text(place, first.text)
     if place != "-":
         write_text("-", _next_steps(place, first, seen, options.drives))
@@ -133,7 +166,7 @@ def _determined(family, asked, own):
     determined = completion.determined()
     options = {option: determined.get(places.get(option), number) for option, number in asked.items()}
     if math.isnan(options["m"]):
-        raise UsageError("--m: no module; give it, or a size from which it follows, by --set")
+        raise UsageError("--m: no module; give it, or a size from which it follows")
     return options, {place: number for place, number in determined.items() if place not in own}, sizes
 
 
@@ -191,6 +224,48 @@ def _undercut(drive):
         "another profile shift or pressure angle (`meshwright explain undercut`, `meshwright limits` says where)"
         for member, count in cut.items()
     ]
+
+
+def _short(drive):
+    """A line if the next pair of teeth comes into contact only after one has left it."""
+    ratio = drive.contact_ratio().contact_ratio
+    if ratio is None or not ratio < 1.0:
+        return []
+    return [f"careful: contact ratio {ratio:.3g} is below 1: change a size first"]
+
+
+#: What assumed sizes are changed by, relative (of one that is 0: as it is), where a design does not mesh.
+CHANGES = (0.25, -0.25, 0.1, -0.1)
+
+#: Sizes that mend a design are named at most so many, and designs looked at for them.
+MOST_MENDS = 3
+MOST_LOOKS = 24
+
+
+def _mended(first, design):
+    """A line for each of the sizes, of those that ``first`` assumes, whose change alone makes ``design`` of it mesh.
+
+    What is assumed last, with most of the rest known, is tried first.
+    """
+    sizes = [(place, size) for place, size, _ in reversed(first.assumed) if "." in place and isinstance(size, float)]
+    looks = [(place, number, by) for by in CHANGES for place, number in sizes]
+    named = set()
+    for place, number, by in looks[:MOST_LOOKS]:
+        changed = float(f"{number * (1.0 + by) or by:.4g}")
+        if place not in named and _meshes(lambda size={place: changed}: _drive(design(size))):
+            named.add(place)
+            yield f"with {place} = {changed:g}, not {number:g}, the pair meshes"
+        if len(named) == MOST_MENDS:
+            return
+
+
+def _meshes(made):
+    """Whether nothing is wrong with a drive that is yet to be made."""
+    try:
+        drive = made()
+        return _contact(drive)[0] and not (_pointed(drive) or _undercut(drive) or _short(drive))
+    except (DesignError, UsageError):
+        return False
 
 
 def _contact(drive):

@@ -62,7 +62,7 @@ class Family:
     @cached_property
     def drawing(self):
         """Sizes, relations and defaults of the family's drawings."""
-        return Drawing(self.drawn, self.parameters)
+        return Drawing(self.drawn, self.parameters, frozenset(".".join(table_and_key(p)) for p in self.choosing))
 
     @property
     def choosing(self):

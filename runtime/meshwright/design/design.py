@@ -21,7 +21,7 @@ from meshwright.design import description as metadata
 from meshwright.design import schema
 from meshwright.design.mirror import Mirror
 from meshwright.design.nearest import filled_nearly
-from meshwright.design.relations import GIVEN, Completion
+from meshwright.design.relations import GIVEN, Completion, outer
 
 PACKAGED = Path(__file__).parent.parent / "designs"
 
@@ -117,7 +117,7 @@ def toml_text(tables):
 
 
 def _toml(value):
-    return json.dumps(value, ensure_ascii=False) if isinstance(value, str | bool) else repr(value)
+    return json.dumps(value, ensure_ascii=False) if isinstance(value, str | bool | list) else repr(value)
 
 
 def changed(tables, changes):
@@ -129,6 +129,8 @@ def changed(tables, changes):
         if not isinstance(target, dict):
             raise DesignError(place, value, f"{table} is not a table", "write table.key=value")
         target[key] = value
+    if isinstance(tables.get("assumed"), list):
+        tables["assumed"] = [place for place in tables["assumed"] if place not in changes]
     return tables
 
 
@@ -236,7 +238,7 @@ class Design:
         for name, entry in self.tables.items():
             if isinstance(entry, dict):
                 closed |= {name: kept} if (kept := {k: v for k, v in entry.items() if v is not None}) else {}
-            else:
+            elif entry != ():
                 closed[name] = entry
         return closed
 
@@ -318,7 +320,7 @@ def from_drawing(tables, places=None):
     if entries.keys() <= drawing.places.keys() - drawing.beside and closed >= {*required}:
         return tables
     completion = Completion.of(drawing, entries)
-    if error := completion.open_ends(required):
+    if error := completion.unsound() or completion.open_ends(required):
         raise error
     own = {place: p for place, p in drawing.places.items() if place not in drawing.beside}
     kept = {name: {k: v for k, v in entry.items() if f"{name}.{k}" not in entries or f"{name}.{k}" in own}
@@ -327,8 +329,9 @@ def from_drawing(tables, places=None):
     for place, p in own.items():
         known = completion.known.get(p["name"])
         if known and known.provenance != GIVEN and p["name"] not in completion.usual and known.value != p["default"]:
-            number = known.value / p["factor"]
-            changes[place] = round(number) if p["integer"] else number
+            number = outer(p, known.value)
+            if number != family.variant_defaults.get(place.removeprefix("design.")):
+                changes[place] = number
     return changed(kept, changes)
 
 

@@ -6,18 +6,27 @@ from dataclasses import dataclass
 from meshwright.base.expression import value
 from meshwright.design import description as metadata
 from meshwright.design import schema
-from meshwright.design.relations import ASSUMED, DERIVED, GIVEN, Completion, Known, Symbols
+from meshwright.design.relations import ASSUMED, DERIVED, GIVEN, Completion, Known, Symbols, outer
+
+#: Longest relation that is shown in a line.
+WIDEST = 72
 
 #: Why a size has its value where a design's completion gives it without a relation of the drawing.
 COMPLETED = "completes the design"
 
+#: The same of a key that the design lists as assumed.
+PROPOSED = "proposed, not given"
+
 
 @dataclass(frozen=True)
 class Size:
-    """A size of a drawing: its ``value`` in the unit of its key, or its word; ``provenance`` is "given", "derived" or
-    "assumed", ``relation`` the equation that derives it or the reason for which it is assumed.
+    """A size of a drawing: the ``table`` of its key, its ``value`` in the unit of the key, or its word.
+
+    ``provenance`` is "given", "derived" or "assumed", ``relation`` the equation that derives it or the reason for which
+    it is assumed.
     """
 
+    table: str
     value: float | int | str
     symbol: str
     meaning: str
@@ -35,6 +44,11 @@ class Finding:
     word: str
     holds: bool
     margin: float
+
+    @property
+    def said(self):
+        """In words, for readers."""
+        return self.word if self.holds else {"occurs": "does not occur", "possible": "not possible"}[self.word]
 
 
 @dataclass(frozen=True)
@@ -56,11 +70,19 @@ class Sheet:
         }  # fmt: skip
 
 
+def shortened(relation):
+    """A relation or reason that fits on a line."""
+    return relation if len(relation) <= WIDEST else f"{relation[: WIDEST - 1]}…"
+
+
 def sheet(design):
     """The :class:`Sheet` of a :class:`~meshwright.design.design.Design`."""
     drawing = metadata.families(design.places)[design.family].drawing
     given = design.drawn or design.given()
-    completion = Completion.of(drawing, schema.drawn(design.family, given, design.places))
+    # a design of its own keys alone is what it is: a drawing says what it follows from, not whether it agrees
+    completion = Completion.of(
+        drawing, schema.drawn(design.family, given, design.places), judged=design.drawn is not None
+    )
     known = completion.known
     for number, p in zip(design.parameters, design.description["parameters"], strict=True):
         provenance = DERIVED if p["default"] is None else ASSUMED
@@ -75,10 +97,13 @@ def sheet(design):
         if (size := known.get(p["name"])) is not None:
             symbol = "" if p["name"] in (p["key"], p.get("place")) else p["name"]
             key = drawing.table["tables"].get(p["table"], "") + p["key"]
-            sizes[key] = Size(_outer(p, size.value), symbol, p["meaning"], size.provenance, size.why(p["name"]))
+            source, why = size.provenance, size.why(p["name"])
+            if source == GIVEN and f"{p['table']}.{p['key']}" in design.tables["assumed"]:
+                source, why = ASSUMED, PROPOSED
+            sizes[key] = Size(p["table"], outer(p, size.value), symbol, p["meaning"], source, why)
     for s in design.description["sizes"]:
         if s["key"] not in sizes and math.isfinite(design.sizes[s["key"]]):
-            sizes[s["key"]] = Size(design.sizes[s["key"]], "", s["meaning"], DERIVED, s["meaning"])
+            sizes[s["key"]] = Size("design", design.sizes[s["key"]], "", s["meaning"], DERIVED, s["meaning"])
     symbols = Symbols({name: size.value for name, size in known.items()})
     checks = {}
     for check in drawing.table["checks"]:
@@ -88,10 +113,3 @@ def sheet(design):
             checks[check["name"]] = Finding(word, holds, margin)
     return Sheet(design.family, design.as_solved(), sizes, checks)
 
-
-def _outer(parameter, number):
-    """An inner number in the unit of its key, or its word."""
-    words = {choice: word for word, choice in parameter["choices"].items()}
-    if number in words:
-        return words[number]
-    return round(number) if parameter["integer"] else number / parameter["factor"]

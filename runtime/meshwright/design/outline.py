@@ -2,13 +2,20 @@
 
 import json
 import math
+import textwrap
 from dataclasses import dataclass
 
 from meshwright.base.errors import UsageError
 from meshwright.base.expression import value
+from meshwright.design import schema
+from meshwright.design.relations import Completion
 
 #: Sizes farther from the family's proportions than this share are told where flanks do not meet.
 ASTRAY = 0.1
+
+#: How the list of what is assumed is written.
+WIDTH = 100
+INDENTED = {"initial_indent": "  ", "subsequent_indent": "  ", "break_long_words": False, "break_on_hyphens": False}
 
 #: Why a value of one's own that no suggestion knows is there: whoever sets it has to see to the rest.
 ALONE = "as given; no other size follows it"
@@ -62,8 +69,12 @@ def first_design(family, name, words, given, own, determined=None, follow=None):
     flank = next(p for p in family.parameters if p["table"] == "flank")["choices"]
     above = {"drive": family.name, "name": name, "flank": next(iter(flank))}
     above |= {key: number for key, (number, _) in written.items() if "." not in key}
+    proposed = [place for place, (_, why) in chosen.items() if why]
     lines = [f"{key} = {_toml(number)}" for key, number in above.items()]
-    tables = dict.fromkeys(["design", *(place.partition(".")[0] for place in written if "." in place)])
+    if proposed:
+        lines += ["assumed = [", *textwrap.wrap(", ".join(map(_toml, proposed)), WIDTH, **INDENTED), "]"]
+    taken = _taken(family, above | {"design": {**words}}, written)
+    tables = dict.fromkeys(["design", *(place.partition(".")[0] for place in [*written, *taken] if "." in place)])
     for table in tables:
         lines += ["", f"[{table}]"]
         if table == "design":
@@ -71,9 +82,32 @@ def first_design(family, name, words, given, own, determined=None, follow=None):
         for place, (number, why) in written.items():
             if place.partition(".")[0] == table:
                 entry = f"{place.partition('.')[2]} = {_toml(number)}"
-                lines.append(f"{entry:<44}  # {why}" if why else entry)
-    assumed = tuple((place, number, why) for place, (number, why) in (chosen | alone).items())
+                said = f"assumed: {why}" if place in chosen and why else why
+                lines.append(f"{entry:<44}  # {said}" if said else entry)
+        for place, (number, why) in taken.items():
+            if place.partition(".")[0] == table:
+                entry = f"# {place.partition('.')[2]} = {_toml(number)}"
+                lines.append(f"{entry:<44}  # assumed: {why}")
+    assumed = tuple((place, number, why) for place, (number, why) in (chosen | taken | alone).items())
     return FirstDesign("\n".join(lines) + "\n", (*told, *assumed))
+
+
+def _taken(family, tables, written):
+    """What the drawing of a design assumes beside the sizes ``written``: "table.key" → number or word, reason."""
+    for place, (number, _) in written.items():
+        table, _, key = place.rpartition(".")
+        if table:
+            tables.setdefault(table, {})[key] = number
+    entries = schema.drawn(family.name, tables)
+    if entries.keys() <= family.drawing.places.keys() - family.drawing.beside:
+        return {}
+    assumed = Completion.of(family.drawing, entries).assumed()
+    return {place: (_short(number), why) for place, (number, why) in assumed.items() if place != "flank.flank"}
+
+
+def _short(number):
+    """A number to as many digits as a comment needs."""
+    return float(f"{number:.6g}") if isinstance(number, float) else number
 
 
 def beside_proportions(family, given):
@@ -113,7 +147,8 @@ def _beyond(family, given):
     """Sizes that the proportions leave at their defaults and the design does not, a sentence each."""
     suggested = {suggestion["place"] for suggestion in family.outline["suggestions"]} if family.outline else set()
     tables = {place.partition(".")[0] for place in suggested if place}
-    places = {f"{p['table']}.{p['key']}": p["default"] for p in family.parameters if p["table"] in tables}
+    places = {f"{p['table']}.{p['key']}": p["default"] and p["default"] / p["factor"]
+              for p in family.parameters if p["table"] in tables}  # fmt: skip
     return [
         f"{place} = {given[place]:g}: {default:g} by the proportions of this family, whose other sizes do not follow it"
         for place, default in places.items()

@@ -7,7 +7,7 @@ is assumed; a relation without open sizes is a check. Nothing here knows a key b
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import combinations
@@ -60,45 +60,61 @@ class Relation:
     @cached_property
     def sizes(self) -> frozenset[str]:
         """Every size of the relation."""
-        found = frozenset().union(*({name} | _read(solution) for name, solution in self.solutions.items()))
-        return found - {s["unknown"] for s in self.solutions.values() if isinstance(s, dict)}
+        return frozenset().union(*({name} | _read(solution) for name, solution in self.solutions.items()))
 
     def solved(self, name: str, symbols: Mapping[str, float]) -> float:
         """What a size is by the others; not a number where they do not determine it."""
-        solution = self.solutions[name]
-        if not isinstance(solution, dict):
-            return value(solution, symbols)
-
-        def residual(unknown: float) -> float:
-            return value(solution["residual"], {**symbols, solution["unknown"]: unknown})
-
-        low, high = (value(end, symbols) for end in solution["between"])
-        ends = residual(low), residual(high)
-        return bracketed(residual, low, high, RESOLUTION, ends) if ends[0] * ends[1] <= 0.0 else math.nan
+        return _solved(self.solutions[name], symbols)
 
     def text(self, name: str) -> str:
         """The solution for a size, as an equation."""
-        solution = self.solutions[name]
-        if isinstance(solution, dict):
-            return f"{text(solution['residual'])} = 0 for {solution['unknown']} = {name}"
-        return f"{name} = {text(solution)}"
+        return _equation(self.solutions[name], name)
+
+
+def _solved(solution: Any, symbols: Mapping[str, float]) -> float:
+    """The value of an expression, or the root that is described."""
+    if not isinstance(solution, dict):
+        return value(solution, symbols)
+
+    def residual(unknown: float) -> float:
+        known = {**symbols, solution["unknown"]: unknown}
+        for name, found in solution["where"]:
+            known[name] = _solved(found, Symbols(known))
+        return value(solution["residual"], Symbols(known))
+
+    low, high = (value(end, symbols) for end in solution["between"])
+    ends = residual(low), residual(high)
+    return bracketed(residual, low, high, RESOLUTION, ends) if ends[0] * ends[1] <= 0.0 else math.nan
 
 
 def _read(solution: Any) -> frozenset[str]:
-    """The names in a solution."""
-    parts = [solution["residual"], *solution["between"]] if isinstance(solution, dict) else [solution]
-    return frozenset().union(*map(names, parts))
+    """The names in a solution that are none of its own."""
+    if not isinstance(solution, dict):
+        return names(solution)
+    parts = [solution["residual"], *solution["between"]]
+    read = [*map(names, parts), *(_read(found) for _, found in solution["where"])]
+    return frozenset().union(*read) - {solution["unknown"], *(name for name, _ in solution["where"])}
+
+
+def _equation(solution: Any, name: str) -> str:
+    """A solution for a size as an equation."""
+    if not isinstance(solution, dict):
+        return f"{name} = {text(solution)}"
+    where = "".join(f", {_equation(found, known)}" for known, found in solution["where"])
+    return f"{text(solution['residual'])} = 0 for {solution['unknown']} = {name}" + (where and f" with{where[1:]}")
 
 
 @dataclass(frozen=True, eq=False)
 class Drawing:
     """The sizes, relations and defaults of a family as its table has them (``derive/emit/drawing.py``).
 
-    ``parameters`` are the keys of its designs, which come first in the family's order.
+    ``parameters`` are the keys of its designs, which come first in the family's order, ``choosing`` the places of those
+    that choose the drive.
     """
 
     table: dict[str, Any]
     parameters: list[dict[str, Any]]
+    choosing: frozenset[str] = frozenset()
 
     @cached_property
     def listed(self) -> list[dict[str, Any]]:
@@ -122,7 +138,7 @@ class Drawing:
     @cached_property
     def beside(self) -> set[str]:
         """Places of the sizes that are no keys of a design's own."""
-        return {f"{p['table']}.{p['key']}" for p in self.table["sizes"]}
+        return {f"{p['table']}.{p['key']}" for p in self.table["sizes"]} - self.choosing
 
     def refused(self, tables: Mapping[str, Any]) -> DesignError | None:
         """The error for what raw tables say of a kind of drive that no drive of the family is; None where it is one."""
@@ -178,13 +194,17 @@ class Completion:
     drawing: Drawing
     given: dict[str, dict[str, Any]]  # name → size, with its value in the inner unit as "given"
     relations: list[Relation]
+    judged: bool = True  # whether sizes that contradict each other are an error
     known: dict[str, Known] = field(default_factory=dict)
     usual: set[str] = field(default_factory=set)  # assumed as every design of the family is completed
     led: set[str] = field(default_factory=set)  # assumed because of a size that is given
+    unsolved: dict[str, Relation] = field(default_factory=dict)  # size → relation that has no root for it
 
     @classmethod
-    def of(cls, drawing: Drawing, entries: Mapping[str, float]) -> Completion:
-        """Of values by "table.key", in the units of the keys; raises :class:`DesignError` where two contradict."""
+    def of(cls, drawing: Drawing, entries: Mapping[str, Any], judged: bool = True) -> Completion:
+        """Of values by "table.key", in the units of the keys; raises :class:`DesignError` where two contradict and that
+        is ``judged``.
+        """
         given, relations = {}, list(drawing.relations)
         for place, number in entries.items():
             size = drawing.places.get(place)
@@ -194,7 +214,7 @@ class Completion:
                     continue
                 relations = [*leading, *relations]
             given[size["name"]] = size | {"place": place, "shown": number, "given": _inner(size, number)}
-        completion = cls(drawing, given, relations)
+        completion = cls(drawing, given, relations, judged)
         completion.complete()
         return completion
 
@@ -205,7 +225,7 @@ class Completion:
 
     def _begin(self) -> None:
         self.known = {name: Known(size["given"], GIVEN, "", frozenset({name})) for name, size in self.given.items()}
-        self.usual, self.led = set(), set()
+        self.usual, self.led, self.unsolved = set(), set(), {}
 
     def _holds(self) -> bool:
         """Complete; whether no two sizes contradict, of which nothing else is asked."""
@@ -250,6 +270,8 @@ class Completion:
                     moved = True
                 elif name not in r.solutions:
                     left.append(r)
+                elif isinstance(r.solutions[name], dict):
+                    self.unsolved[name] = r
             waiting = left
         return waiting
 
@@ -257,9 +279,8 @@ class Completion:
         """Assume the first default that has a value."""
         for default in defaults:
             target = default["target"]
-            if target in self.known or not self.known.keys() >= {*default["needs"]} or self.known.keys() & {
-                *default["unless"]
-            }:
+            needs, unless = ({*default[kind]} for kind in ("needs", "unless"))
+            if target in self.known or not self.known.keys() >= needs or self.given.keys() & unless:
                 continue
             number = value(default["value"], self._symbols)
             if math.isfinite(number):
@@ -279,6 +300,8 @@ class Completion:
 
     def _check(self, r: Relation) -> None:
         """Whether a relation between sizes that are all known holds; it does where it does not apply."""
+        if not self.judged:
+            return
         theirs, own = r.solved(r.size, self._symbols), self.known[r.size].value
         unit = next((p["unit"] for p in [*self.given.values(), *self.drawing.listed] if p["name"] == r.size), "")
         if not math.isfinite(theirs) or abs(theirs - own) <= TOLERANCES.get(unit, TOLERANCE):
@@ -304,15 +327,33 @@ class Completion:
             reason += f"by {r.text(r.size)}"
         return DesignError(size["place"], size["shown"], reason, "leave one of them out")
 
-    def determined(self) -> dict[str, float | int]:
-        """The keys of a design that follow from the sizes given, by "table.key", in their units."""
-        found = {}
+    def determined(self) -> dict[str, Any]:
+        """Keys and sizes that follow from those given, by "table.key", in their units."""
+        settled = (DERIVED, ASSUMED) if self.led else (DERIVED,)
+        return {place: outer(p, known.value) for place, p, known in self._found() if known.provenance in settled}
+
+    def assumed(self) -> dict[str, tuple[Any, str]]:
+        """Keys and sizes that are assumed as drawings of the family are completed, with the reason."""
+        found = [(place, p, known) for place, p, known in self._found() if known.provenance == ASSUMED]
+        return {place: (outer(p, known.value), known.why(p["name"])) for place, p, known in found}
+
+    def _found(self) -> Iterator[tuple[str, dict[str, Any], Known]]:
+        """Place, size and value of what relations derive, or defaults assume that are not those of every design."""
         for place, p in self.drawing.places.items():
             known = self.known.get(p["name"])
-            settled = known and (known.provenance == DERIVED or (self.led and p["name"] not in self.usual))
-            if known and settled and place not in self.drawing.beside and known.provenance != GIVEN:
-                found[place] = round(known.value) if p["integer"] else known.value / p["factor"]
-        return found
+            if known and known.provenance != GIVEN and p["name"] not in self.usual:
+                yield place, p, known
+
+    def unsound(self) -> DesignError | None:
+        """The error for sizes that no drive of the family has together; None where there are none."""
+        for guard in self.drawing.table["guards"]:
+            if value(guard["positive"], self._symbols) <= 0.0:
+                given = [s for s in self.given.values() if s["key"] in guard["keys"]]
+                shown = [f"{s['place']} = {s['shown']}" for s in given[1:]]
+                place, number = (given[0]["place"], given[0]["shown"]) if given else (guard["keys"][0], None)
+                reason = guard["message"] + (f" (with {', '.join(shown)})" if shown else "")
+                return DesignError(place, number, reason, f"change {' or '.join(guard['keys'])}")
+        return None
 
     def open_ends(self, required: Iterable[str]) -> DesignError | None:
         """The error that names what would close the design: what is ``required`` and open, or is given and leads to
@@ -326,6 +367,11 @@ class Completion:
         related = frozenset().union(*(r.sizes for r in self.relations))
         idle = [name for name in self.given if name in related and name not in keys | used]
         missing = [name for name in required if name not in self.known]
+        for r in self.unsolved.values() if missing else ():
+            if not r.sizes <= self.known.keys():
+                return self._rootless(r)
+        if (idle or missing) and (apart := self._apart()):
+            return apart
         for name in (*idle, *missing):
             size = self.given.get(name) or next(p for p in self.drawing.listed if p["name"] == name)
             place = f"{size['table']}.{size['key']}"
@@ -337,6 +383,28 @@ class Completion:
             instead = f", or give {remedy}" if sets else ""
             return DesignError(place, None, "the key is missing", f"add it to the design{instead}")
         return None
+
+    def _apart(self) -> DesignError | None:
+        """The error for a size of a drawing beside a key with which nothing is assumed; None where there are none."""
+        unless = frozenset().union(*(default["unless"] for default in self.drawing.table["defaults"]))
+        keys = self.drawing.places.keys() - self.drawing.beside
+        drawn = [s for s in self.given.values() if s["place"] not in keys]
+        own = [s for name, s in self.given.items() if name in unless and s not in drawn]
+        if not (own and drawn):
+            return None
+        shown = ", ".join(f"{s['place']} = {s['shown']}" for s in drawn)
+        reason = f"contradicts {shown}: it follows from a drawing"
+        return DesignError(own[0]["place"], own[0]["shown"], reason, "leave it out, or all sizes of the drawing")
+
+    def _rootless(self, r: Relation) -> DesignError:
+        """The error that names the given sizes for which a relation has no solution."""
+        known = frozenset().union(*(self.known[name].ends for name in r.sizes if name in self.known))
+        first, *others = (s for name, s in self.given.items() if name in known)
+        shown = ", ".join(f"{s['place']} = {s['shown']}" for s in others)
+        sought = r.sizes - self.known.keys()
+        meaning = next(p["meaning"] for p in self.drawing.listed if p["name"] in sought)
+        reason = f"no {meaning} goes with {shown}"
+        return DesignError(first["place"], first["shown"], reason, "change one of them")
 
     def _closing(self, name: str) -> list[list[str]]:
         """The smallest sets of places of sizes that, given too, would close a relation of a size."""
@@ -355,6 +423,14 @@ def _inner(size: dict[str, Any], number: Any) -> float:
     return float(size["choices"][number]) if size["choices"] else float(number) * size["factor"]
 
 
-def _outer(size: dict[str, Any], number: float) -> str:
+def outer(size: Mapping[str, Any], number: float) -> Any:
+    """An inner number in the unit of its key, or its word."""
     words = {choice: word for word, choice in size["choices"].items()}
-    return words.get(number) or f"{number / size['factor']:.9g}"
+    if number in words:
+        return words[number]
+    return round(number) if size["integer"] else number / size["factor"]
+
+
+def _outer(size: dict[str, Any], number: float) -> str:
+    shown = outer(size, number)
+    return shown if isinstance(shown, str) else f"{shown:.9g}"

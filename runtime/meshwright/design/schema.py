@@ -42,7 +42,7 @@ COMPARISONS = {
 
 @dataclass(frozen=True)
 class Key:
-    """One key: ``kind`` is "number", "integer", "word" (one of ``words``) or "text".
+    """One key: ``kind`` is "number", "integer", "word" (one of ``words``), "text" or "places" (a list of "table.key").
 
     ``bounds`` of a number in the unit of its key, by the name of the comparison that holds: ``{"gt": 0.0}``. A key that
     is not ``required`` has a ``default``, None where it is left open.
@@ -51,11 +51,11 @@ class Key:
     kind: str
     meaning: str = ""
     required: bool = False
-    default: str | int | None = None
+    default: str | int | tuple[str, ...] | None = None
     bounds: dict[str, float] = field(default_factory=dict)
     words: tuple[str, ...] = ()
 
-    def checked(self, place: str, value: object) -> float | int | str | None:
+    def checked(self, place: str, value: object) -> float | int | str | list[str] | None:
         """The value, a number as Python's own; raises :class:`~meshwright.base.errors.DesignError` naming ``place``."""
         if value is None and not self.required and self.default is None:
             return None
@@ -64,6 +64,8 @@ class Key:
                 return _word(place, value, self.words)
             case "text":
                 return _name(place, value)
+            case "places":
+                return _places(place, value)
             case "integer":
                 return self._bounded(place, value, _whole(place, value))
             case _:
@@ -81,6 +83,8 @@ class Key:
         opened = not self.required and self.default is None
         if self.kind == "word":
             schema: dict[str, object] = {"enum": [*self.words, *([None] if opened else [])]}
+        elif self.kind == "places":
+            schema = {"type": "array", "items": {"type": "string"}}
         else:
             kind = "string" if self.kind == "text" else self.kind
             schema = {"type": [kind, "null"] if opened else kind}
@@ -126,6 +130,12 @@ def _word(place: str, value: object, words: tuple[str, ...]) -> str:
         listed = f"{', '.join(most)} or {last}" if most else last
         raise DesignError(place, value, "not one of the possible words", f"use {listed}")
     return value
+
+
+def _places(place: str, value: object) -> list[str]:
+    if not isinstance(value, list | tuple) or not all(isinstance(entry, str) for entry in value):
+        raise DesignError(place, value, "must be a list of keys", 'write ["design.key", …]')
+    return [*value]
 
 
 def _name(place: str, value: object) -> str:
@@ -233,9 +243,12 @@ def _form(family: metadata.Family) -> Form:
         "drive": Key("word", required=True, words=(family.name,)),
         "name": Key("text", default=""),
         "flank": Key("word", default=flanks[0], words=flanks),
+        "assumed": Key("places", "keys whose values were proposed, not given", default=()),
     }
     drawn: dict[str, dict[str, Key]] = {}
     for size in family.drawing.table["sizes"]:
+        if f"{size['table']}.{size['key']}" not in family.drawing.beside:
+            continue
         drawn.setdefault(size["table"], {})[size["key"]] = _parameter(size)
     return Form(loose, {"design": tables.pop("design"), **tables}, drawn)
 
@@ -259,6 +272,10 @@ def checked(family: str, tables: dict, places: tuple | None = None) -> dict:
         if not isinstance(entries, dict):
             raise DesignError(table, entries, "must be a table", f"write its keys below [{table}]")
         checked_tables[table] = {name: _given(entries, name, f"{table}.{name}", key) for name, key in keys.items()}
+    for place in checked_tables["assumed"]:
+        table, _, name = place.rpartition(".")
+        if name not in tables.get(table, ()):
+            raise DesignError("assumed", place, "no key that the design gives", "leave it out of the list")
     return checked_tables
 
 
@@ -266,10 +283,13 @@ def drawn(family: str, tables: dict, places: tuple | None = None) -> dict[str, f
     """What raw tables give of the sizes of a drawing, by "table.key", each checked by itself: see :func:`checked`."""
     known, drawing = form(family, places), metadata.families(places)[family].drawing
     found: dict[str, float | str] = {}
-    for table, entries in tables.items():
+    stated = [name for name in known.loose if f"{name}.{name}" in drawing.places and name in tables]
+    alone = {name: {name: tables[name]} for name in stated}
+    for table, entries in (tables | alone).items():
         for name, value in entries.items() if isinstance(entries, dict) else ():
             place = f"{table}.{name}"
-            key = known.tables.get(table, {}).get(name) or known.drawn.get(table, {}).get(name)
+            listed = {table: known.loose} if table in alone else known.tables
+            key = listed.get(table, {}).get(name) or known.drawn.get(table, {}).get(name)
             if value is None or not (place in drawing.places or (key is None and drawing.converted(place))):
                 continue
             number = (key or Key("number", bounds={"gt": 0.0, "le": LARGEST["mm"]})).checked(place, value)
@@ -292,7 +312,7 @@ def _refuse_unknown(entries: dict, known: dict, before: str, whole: Form) -> Non
             raise DesignError(f"{before}{name}", value, "unknown key", remedy)
 
 
-def _given(entries: dict, name: str, place: str, key: Key) -> float | int | str | None:
+def _given(entries: dict, name: str, place: str, key: Key) -> object:
     """The checked value of a key, its default where it is left out."""
     if name in entries:
         return key.checked(place, entries[name])
@@ -321,7 +341,7 @@ def _family_schema(known: Form, drawing: Drawing) -> dict[str, object]:
     }  # fmt: skip
     whole = _object(known.loose)
     properties = {name: key.json_schema() for name, key in known.loose.items()} | tables
-    required = [*whole.get("required", []), *(name for name in known.tables if known.needed(name))]
+    required = [*whole.get("required", []), *(name for name, table in tables.items() if "required" in table)]
     return whole | {"properties": properties, "required": required}
 
 

@@ -7,6 +7,8 @@ import numpy as np
 
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle.transmission import ROUND_OFF
+from meshwright.design.description import families
+from meshwright.design.drawing import shortened
 from meshwright.report.numbers import fixed, number, title, unit
 from meshwright.report.sensitivity import misalignments
 from meshwright.sensitivity import on_member, sensitivity
@@ -64,29 +66,48 @@ def drawing(analysis):
 
     The first word of the key of a member's number of teeth begins or ends its other keys too, or names its table.
     """
-    design, prefixes = analysis.drive.design, _prefixes(analysis)
-    rows = [(p["table"], _parameter(design, p)) for p in design.description["parameters"]
-            if p["table"] in (*_DRAWN, *prefixes.values())]  # fmt: skip
-    rows += [("", (s["meaning"], number(design.sizes[s["key"]]), unit(s["key"]), "derived", s["key"]))
-             for s in design.description["sizes"]]  # fmt: skip
-    rows = [(table, row) for table, row in rows if row[1] != "–"]
-    tables, words = [], lambda key: title(key).split()
+    design, prefixes, sheet = analysis.drive.design, _prefixes(analysis), analysis.drive.drawing()
+    stated = {key: size for key, size in sheet.sizes.items() if size.table in (*_DRAWN, *prefixes.values())}
+    tables, drawn = [], set()
     for member, prefix in prefixes.items():
-        own = [(r[0], r[1], r[2], r[4]) for table, r in rows if prefix in (table, words(r[4])[0], words(r[4])[-1])]
-        tables.append(_stated(member.capitalize(), own))
-    both = [(r[0], r[1], r[2], r[4]) for table, r in rows if table in _DRAWN and _SHARED.match(r[4])]
+        own = {key: size for key, size in stated.items() if prefix in (size.table, *_ends(key.rpartition(".")[2]))}
+        tables.append(_stated(member.capitalize(), [_row(key, size) for key, size in own.items()]))
+        drawn |= own.keys()
+    beside = families(design.places)[design.family].drawing.beside
+    both = [_row(key, size) for key, size in stated.items()
+            if key not in drawn and (f"{size.table}.{key}" in beside or _SHARED.match(key))]  # fmt: skip
     if design.tables["design"].get("hand"):
-        both.append(("hand", design.tables["design"]["hand"], "–", "hand"))
-    both.append(("gear ratio", number(1.0 / analysis.drive.ratio), "–", "ratio"))
+        both.append(("hand", design.tables["design"]["hand"], "–", "hand", "–", "given", ""))
+    both.append(("gear ratio", number(1.0 / analysis.drive.ratio), "–", "ratio", "–", "derived", ""))
     if analysis.running is not None and np.isfinite(analysis.running.backlash):
-        both.append(("backlash, angle of the wheel", number(analysis.running.backlash / ARCSEC, 4), "″", "–"))
+        play = number(analysis.running.backlash / ARCSEC, 4)
+        both.append(("backlash, angle of the wheel", play, "″", "–", "–", "derived", "distance of the two flanks"))
     tables.append(_stated("Both", both))
-    note = "Sizes of the nominal design, without tolerances; those of the tools are in the tables below."
-    return Group("drawing", "Drawing data", note, tuple(tables), columns=True)
+    if sheet.checks:
+        rows = [(name.replace("_", " "), check.said, number(check.margin)) for name, check in sheet.checks.items()]
+        tables.append(Table("Checks", ("check", "finding", "margin"), tuple(rows), frozenset({2})))
+    note = (
+        "Sizes of the nominal design, without tolerances, and where each is from; those of the tools are in the tables "
+        "below. `meshwright drawing` prints long relations whole."
+    )
+    return Group("drawing", "Drawing data", note, tuple(tables))
+
+
+def _ends(key):
+    """The first and the last word of a key without its unit."""
+    words = title(key).split()
+    return words[0], words[-1]
+
+
+def _row(key, size):
+    shown = size.value if isinstance(size.value, str) else number(size.value, 9)
+    symbol, relation = size.symbol or "–", shortened(size.relation)
+    return size.meaning, shown, unit(key), key, symbol, size.provenance, relation
 
 
 def _stated(heading, rows):
-    return Table(heading, ("meaning", "value", "unit", "key"), tuple(rows), frozenset({1}), "drawing")
+    header = ("meaning", "value", "unit", "key", "symbol", "source", "relation or reason")
+    return Table(heading, header, tuple(rows), frozenset({1}), "drawing")
 
 
 def _prefixes(analysis):
@@ -115,7 +136,7 @@ def _design(design):
     tables.append(_keys("Derived sizes", sizes))
     note = (
         "Values are in the unit of their key; derived ones follow from the given ones, defaults stand where nothing is "
-        "given. Keys left open set no limit and are not listed."
+        "given or assumed. Keys left open set no limit and are not listed."
     )
     return Group("design", "Design and derived sizes", note, tuple(tables), columns=True)
 
@@ -141,8 +162,11 @@ def _parameter(design, parameter):
 
 def _source(design, parameter):
     """Where the value of a parameter is from."""
-    if design.tables[parameter["table"]].get(parameter["key"]) is not None:
-        return "given"
+    table, key = parameter["table"], parameter["key"]
+    if design.tables[table].get(key) is not None:
+        if design.drawn is not None and key not in design.drawn.get(table, ()):
+            return "derived"
+        return "assumed" if f"{table}.{key}" in design.tables["assumed"] else "given"
     return "derived" if parameter["default"] is None else "default"
 
 
