@@ -139,7 +139,8 @@ class Shown:
         why = "; ".join(f"{message} (at {_angles(count)})" for message, count in self.others.items())
         if not self.count:
             return f"not certified: {why}"
-        number = "every contact" if self.count == self.total and not self.besides else f"{self.count} of {self.total} contacts"
+        every = self.count == self.total and not self.besides
+        number = "every contact" if every else f"{self.count} of {self.total} contacts"
         rest = f"; not: {why}" if why else ""
         return f"certified: {number} the only one nearby, transmission error within {self.width:.0e} arcsec{rest}"
 
