@@ -15,7 +15,7 @@ DERIVED = $(PY) -m derive.products
 CHECKERS := check_description check check_code check_bounded check_shipped check_print
 
 .PHONY: help setup generate audit kernel coq bench build check examples run lint test solver cmake test-fe validate site wheels dist
-.PHONY: wheels-run machines nvrtc precompiled preshown fuzz benchmark coverage compilers sanitizers emulators
+.PHONY: wheels-run machines nvrtc jax precompiled preshown fuzz benchmark coverage compilers sanitizers emulators
 
 # Compiled modules are kept, whatever the environment says: each of many short processes would compile them anew.
 export PYTHONDONTWRITEBYTECODE :=
@@ -123,7 +123,7 @@ benchmark: setup build
 
 # The longer tests: many random designs and inputs, every drive, brute force, all theorems; some minutes of a processor for
 # each file, with SIZE=full all that there is. The site is built too, in which no link or reference may be broken.
-validate: setup build solver cmake cad sanitizers emulators nvrtc coq site
+validate: setup build solver cmake cad sanitizers emulators nvrtc jax coq site
 	MESHWRIGHT_SIZE=$(SIZE) $(PY) -m pytest -m validate --numprocesses auto
 
 # NVIDIA's compiler at run time from its Python package, where it can be had: it compiles for a GPU without one. Tests say so
@@ -131,6 +131,10 @@ validate: setup build solver cmake cad sanitizers emulators nvrtc coq site
 nvrtc: setup
 	@$(PY) -c "import nvidia.cuda_nvrtc" 2>/dev/null || $(PY) -m pip install --quiet nvidia-cuda-nvrtc-cu12 2>/dev/null \
 		|| echo "NVRTC is not installable here: headers are not compiled for a GPU"
+
+# JAX, where it can be had; without it those tests are not run.
+jax: setup
+	@$(PY) -c "import jax" 2>/dev/null || $(PY) -m pip install --quiet --no-compile --editable '.[jax]' || true
 
 # An emulator of ARM64, where it can be had without asking.
 emulators:

@@ -25,7 +25,7 @@ class Sensitivity:
 
     ``unknowns[name]`` and ``error``, the transmission error in rad: (N, K). ``points``: contact point in the fixed
     frame, mm: (N, K, 3). NaN where there is no contact point. ``design``: derivatives of the complete parameter
-    vector, (P, K).
+    vector, (P, K). ``error_by_angle``: that of the transmission error by the pinion angle, (N,).
     """
 
     angles: np.ndarray
@@ -34,6 +34,7 @@ class Sensitivity:
     error: np.ndarray
     points: np.ndarray
     design: np.ndarray
+    error_by_angle: np.ndarray
 
     def of(self, key):
         """Column of a key."""
@@ -54,7 +55,7 @@ def sensitivity(drive, angles):
     angles = analysis.checked_angles(angles)
     columns = [k for k, p in enumerate(description["parameters"]) if _counts(p, k, checked)]
     design = np.stack([_of_design(checked, column) for column in columns], axis=1)
-    changes, points = _of_contact(drive, angles, design)
+    changes, points, by_angle = _of_contact(drive, angles, design)
     mirror = checked.mirror
     names = [u["name"] for u in description["unknowns"]]
     turning = [mirror.factor(name) for name in names]
@@ -66,6 +67,7 @@ def sensitivity(drive, angles):
         error=mirror.sign * changes[..., description["error"]],
         points=points * mirror.flip,
         design=design,
+        error_by_angle=by_angle[:, description["error"]],
     )
 
 
@@ -109,19 +111,22 @@ def _of_design(design, column):
 
 
 def _of_contact(drive, angles, design):
-    """Changes (N, K, nx) of the unknowns and (N, K, 3) of the contact point of the right-hand drive."""
+    """Changes (N, K, nx) of the unknowns and (N, K, 3) of the contact point of the right-hand drive, and (N, nx) of the
+    unknowns by its pinion angle.
+    """
     m, p = drive.design.model, drive.design.parameters
     solved = analysis.analyse(drive, angles)
-    changes = np.full((len(angles), design.shape[1], m.nx), np.nan)
-    points, s = np.full((*changes.shape[:2], 3), np.nan), np.empty(m.ns)
+    ways = [*((direction, 0.0) for direction in design.T), (np.zeros(m.np), 1.0)]
+    changes, s = np.full((len(angles), len(ways), m.nx), np.nan), np.empty(m.ns)
+    points = np.full((*changes.shape[:2], 3), np.nan)
     m.setup(pointer(p), pointer(s))
     for i in np.flatnonzero([status == "converged" for status in solved.status]):
         phi = drive.design.mirror.sign * angles[i]
         m.set_phi(pointer(s), phi)
         x = np.ascontiguousarray(solved.solutions[i])
-        for j, direction in enumerate(design.T):
+        for j, (direction, turn) in enumerate(ways):
             dp, dx, dr = np.ascontiguousarray(direction), np.empty(m.nx), np.empty(3)
             arguments = map(pointer, (s, x, dx, dr))
-            if library().mw_contact_tangent(m, pointer(p), pointer(dp), phi, 0.0, *arguments) >= 0:
+            if library().mw_contact_tangent(m, pointer(p), pointer(dp), phi, turn, *arguments) >= 0:
                 changes[i, j], points[i, j] = dx, dr
-    return changes, points
+    return changes[:, :-1], points[:, :-1], changes[:, -1]

@@ -3,8 +3,9 @@
 The rows are those of ``portable`` lanes, bit for bit. What does not go through in one trace is left to the lanes.
 """
 
+# pyright: reportMissingImports=false
+
 from functools import cache
-from importlib import import_module
 from pathlib import Path
 from threading import Lock
 
@@ -70,7 +71,7 @@ def _cupy():
     """The library that compiles for CUDA devices and runs there."""
     without = "--portable has the same rows without one"
     try:
-        cupy = import_module("cupy")
+        import cupy
     except ImportError as error:
         remedy = "`pip install 'meshwright[cuda]'` brings it"
         raise UsageError(f"--device cuda: CuPy is not installed; {remedy}; {without}") from error

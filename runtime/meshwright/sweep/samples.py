@@ -106,7 +106,7 @@ def solve(drive, keys, values, angles, portable=False, device=None):
     found = batch.points(mirror.sign * angles).mirrored(mirror)
 
     def drive_of(k):
-        return _with_keys(drive, keys, values[k])
+        return with_keys(drive, keys, values[k])
 
     for k in np.flatnonzero(_perhaps_past_the_tips(batch, found)):
         if drive_of(k).past_the_tips:
@@ -132,8 +132,8 @@ def _in_lanes(drive):
     return drive.design.model_in_lanes if drive.backend == "c" else drive.model
 
 
-def _with_keys(drive, keys, values):
-    """The drive of one sample."""
+def with_keys(drive, keys, values):
+    """The drive with other values of keys ("table.key"), in the units of the keys."""
     changes = {}
     for key, value in zip(keys, values.tolist(), strict=True):
         table, _, name = key.partition(".")
