@@ -245,6 +245,7 @@ def _fmi2(words, variables, token, sources):
     outputs = "".join(unknown(v) for v in variables if v.causality == "output")
     initial = "".join(unknown(v) for v in variables if v.causality == "output")
     able = f'modelIdentifier="{IDENTIFIER}" canGetAndSetFMUstate="true" canSerializeFMUstate="true"'
+    able += ' providesDirectionalDerivative="true"'
     return (
         f'<?xml version="1.0" encoding="UTF-8"?>\n<fmiModelDescription fmiVersion="2.0" modelName="{IDENTIFIER}"'
         f' guid="{token}" description={quoteattr(words)} generationTool="meshwright"'
@@ -284,6 +285,7 @@ def _fmi3(words, variables, token, sources):
     initial = "".join(entry("InitialUnknown", v) for v in variables if v.causality == "output")
     gaps = "".join(f'    <EventIndicator valueReference="{reference}"/>\n' for reference in GAPS)
     able = f'modelIdentifier="{IDENTIFIER}" canGetAndSetFMUState="true" canSerializeFMUState="true"'
+    able += ' providesDirectionalDerivatives="true"'
     time = '    <Float64 name="time" valueReference="0" causality="independent" variability="continuous"/>\n'
     return (
         f'<?xml version="1.0" encoding="UTF-8"?>\n<fmiModelDescription fmiVersion="3.0" modelName="{IDENTIFIER}"'
