@@ -2,12 +2,14 @@
 
 import shutil
 import zipfile
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from meshwright import Drive
 from meshwright.cli import main
+from meshwright.commands import export
 from tests.quick import quick
 
 fmpy = pytest.importorskip("fmpy", reason="FMPy is not installed")
@@ -116,6 +118,20 @@ def test_the_wheel_is_free_for_the_backlash(written):
     unit.set(phi_b=drive.ratio * angle + 0.5 * (at.drive.errors[0] + at.coast.errors[0]))
     unit.step()
     assert unit.get("tau_a", "tau_b", "potential_energy", "contact") == [0.0, 0.0, 0.0, 0]
+    unit.close()
+
+
+@pytest.mark.parametrize("version", [2, 3])
+def test_a_component_starts_with_the_stiffness_of_a_pair_under_a_torque(tmp_path, monkeypatch, version):
+    """As ``loaded`` has it, which is another test's: here 4e4 N m/rad."""
+    monkeypatch.setattr(export, "stiffnesses", lambda _, torques: [SimpleNamespace(pair=STIFFNESS) for _ in torques])
+    path = tmp_path / "stiff.fmu"
+    words = ["export", "helical-crowned", "--fmu", str(path), "--fmi", str(version), "--torque-nm", "20", "--allow-jam"]
+    assert main(words) == 0
+    unit, drive = Unit(path), Drive.load("helical-crowned")
+    assert float(unit.variables["stiffness"].start) == STIFFNESS
+    unit.set(phi_a=0.05, phi_b=drive.ratio * 0.05 + drive.cycle([0.05]).drive.errors[0] - 1e-6)
+    assert unit.get("stiffness") == STIFFNESS and unit.get("tau_b") > 0.0
     unit.close()
 
 
@@ -281,6 +297,7 @@ def test_a_component_for_other_machines(written):
     [
         (["recess-action-full"], "the drive jams"),
         (["helical-crowned", "--fmi", "2", "--platforms", "amiga"], "FMI 2 has linux64"),
+        (["helical-crowned", "--torque-nm", "20,50"], "a component has one stiffness"),
         (["helical-crowned", "--json", "-"], "--json: --fmu has no use for it"),
     ],
 )

@@ -22,6 +22,7 @@ static const double COASTING[] = { @coasting@ };
 static const int MISALIGNED[] = { @misaligned@ };       /* places of misalignments in p */
 static const double FACTORS[] = { @factors@ };          /* of their keys' units */
 static const double STARTS[] = { @starts@ };
+static const double STIFF = @stiffness@;                /* with which a pair starts, N m/rad at the wheel */
 enum { HAS_COAST = @coast@, MISALIGNMENTS = @misalignments@ };
 
 /* Value references. */
@@ -258,6 +259,7 @@ static void restart(component *m)
 {
     memset(&m->now, 0, sizeof m->now);
     for (int k = 0; k < MISALIGNMENTS; k++) m->now.misalignment[k] = STARTS[k];
+    m->now.value[STIFFNESS] = STIFF;
     m->now.stale = 1;
 }
 
