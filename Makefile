@@ -14,7 +14,7 @@ shown = $(compiled) --now $$($1 -m derive.packaged $(PUBLISHED))
 DERIVED = $(PY) -m derive.products
 CHECKERS := check_description check check_code check_bounded check_shipped check_print
 
-.PHONY: help setup generate audit kernel coq bench build check examples run lint test solver cmake test-fe validate site wheels dist
+.PHONY: help setup generate audit kernel coq bench build check examples run lint test solver cmake cad fmi test-fe validate site wheels dist
 .PHONY: wheels-run machines nvrtc jax precompiled preshown fuzz benchmark coverage compilers sanitizers emulators
 
 # Compiled modules are kept, whatever the environment says: each of many short processes would compile them anew.
@@ -51,6 +51,10 @@ cmake: setup
 # Open CASCADE, which checks every solid that is written; without it those tests are not run.
 cad: setup
 	@$(PY) -c "import OCP" 2>/dev/null || $(PY) -m pip install --quiet --no-compile --editable '.[cad]'
+
+# FMPy, which checks components and runs them; without it those tests are not run.
+fmi: setup
+	@$(PY) -c "import fmpy" 2>/dev/null || $(PY) -m pip install --quiet --no-compile --editable '.[fmi]'
 
 # Regenerate generated/: the drives that packaged designs use; with DRIVES="name …" those, with DRIVES=all all.
 generate: $(LEAN)
@@ -123,7 +127,7 @@ benchmark: setup build
 
 # The longer tests: many random designs and inputs, every drive, brute force, all theorems; some minutes of a processor for
 # each file, with SIZE=full all that there is. The site is built too, in which no link or reference may be broken.
-validate: setup build solver cmake cad sanitizers emulators nvrtc jax coq site
+validate: setup build solver cmake cad fmi sanitizers emulators nvrtc jax coq site
 	MESHWRIGHT_SIZE=$(SIZE) $(PY) -m pytest -m validate --numprocesses auto
 
 # NVIDIA's compiler at run time from its Python package, where it can be had: it compiles for a GPU without one. Tests say so

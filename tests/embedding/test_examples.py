@@ -13,6 +13,7 @@ import pytest
 from meshwright import Drive
 from meshwright.base.compile import PARTS
 from meshwright.base.library import ABI, SHIPPED
+from meshwright.cli import main
 from meshwright.contact.results import ARCSEC
 from tests.embedding import compile as c
 
@@ -225,3 +226,48 @@ def test_a_library_of_another_abi_is_refused_with_the_remedy(tmp_path):
     done = subprocess.run([sys.executable, EXAMPLES / "library.py", library], capture_output=True, text=True)
     assert done.returncode == 1
     assert f"has ABI {ABI + 1}, this program needs ABI {ABI}" in done.stderr
+
+
+@pytest.mark.validate
+def test_javascript_finds_the_backlash_of_theory(tmp_path):
+    """Of the helical gears: 1.0082373729 arcseconds at the least."""
+    if not c.tool("node"):
+        pytest.skip("node is not installed")
+    assert main(["export", "helical-crowned", "--npm", str(tmp_path / "helical")]) == 0
+    found = c.run(c.tool("node"), EXAMPLES / "backlash.mjs", tmp_path / "helical", "23")
+    assert float(found) == pytest.approx(1.0082373729, abs=2e-9)
+
+
+@pytest.mark.validate
+def test_a_program_in_rust_follows_a_drive_a_million_radians_on(tmp_path):
+    if not c.tool("cargo"):
+        pytest.skip("cargo is not installed")
+    shutil.copytree(EXAMPLES / "rust", tmp_path / "rust")
+    assert main(["export", "helical-crowned", "--crate", str(tmp_path / "helical")]) == 0
+    found = c.run(c.tool("cargo"), "run", "--quiet", "--offline", cwd=tmp_path / "rust").split()
+    assert int(float(found[0])) == 3660564 and float(found[1]) == pytest.approx(-2.2557720634, abs=2e-9)
+
+
+@pytest.mark.validate
+def test_a_simulation_of_ones_own_takes_a_component(tmp_path):
+    """Errors of theory, and a torque of K δ at each pair that is pressed, wherever the pinion stands."""
+    pytest.importorskip("fmpy", reason="FMPy is not installed: `pip install '.[fmi]'` brings it")
+    drive, path = Drive.load("helical-crowned"), tmp_path / "helical.fmu"
+    assert main(["export", "helical-crowned", "--fmu", str(path), "--fmi", "2", "--allow-jam"]) == 0
+    said = c.run(sys.executable, EXAMPLES / "simulate.py", path, repr(drive.ratio), repr(drive.pitch()))
+    rows = [[float(word) for word in line.split()] for line in said.splitlines()[1:]]
+    errors = drive.cycle([row[0] for row in rows]).drive.errors / ARCSEC
+    assert [row[1] for row in rows] == pytest.approx(errors, abs=1e-6)
+    assert all(0.0 < row[2] < 2.0 for row in rows)
+
+
+@pytest.mark.validate
+def test_octave_has_the_error_at_any_angle(tmp_path):
+    if not c.tool("octave"):
+        pytest.skip("octave is not installed")
+    assert main(["export", "helical-crowned", "--table", str(tmp_path / "te.csv")]) == 0
+    shutil.copy(EXAMPLES / "error_over_angle.m", tmp_path)
+    asked = "printf('%.17g\\n', error_over_angle('te.csv', [0.05 0.15 1e3]))"
+    found = [float(word) for word in c.run(c.tool("octave"), "--eval", asked, cwd=tmp_path).split()]
+    known = Drive.load("helical-crowned").cycle([0.05, 0.15, 1e3]).drive.errors
+    assert found == pytest.approx(known, abs=1e-2 * ARCSEC)

@@ -2,12 +2,14 @@
 
 import shutil
 import zipfile
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from meshwright import Drive
 from meshwright.cli import main
+from meshwright.commands import export
 from tests.quick import quick
 
 fmpy = pytest.importorskip("fmpy", reason="FMPy is not installed")
@@ -119,6 +121,20 @@ def test_the_wheel_is_free_for_the_backlash(written):
     unit.close()
 
 
+@pytest.mark.parametrize("version", [2, 3])
+def test_a_component_starts_with_the_stiffness_of_a_pair_under_a_torque(tmp_path, monkeypatch, version):
+    """As ``loaded`` has it, which is another test's: here 4e4 N m/rad."""
+    monkeypatch.setattr(export, "stiffnesses", lambda _, torques: [SimpleNamespace(pair=STIFFNESS) for _ in torques])
+    path = tmp_path / "stiff.fmu"
+    words = ["export", "helical-crowned", "--fmu", str(path), "--fmi", str(version), "--torque-nm", "20", "--allow-jam"]
+    assert main(words) == 0
+    unit, drive = Unit(path), Drive.load("helical-crowned")
+    assert float(unit.variables["stiffness"].start) == STIFFNESS
+    unit.set(phi_a=0.05, phi_b=drive.ratio * 0.05 + drive.cycle([0.05]).drive.errors[0] - 1e-6)
+    assert unit.get("stiffness") == STIFFNESS and unit.get("tau_b") > 0.0
+    unit.close()
+
+
 @pytest.mark.validate
 def test_flanks_along_a_line_are_one_spring(written):
     """δ = 10⁻⁶ rad of the wheel: K δ, m K δ and K δ²/2."""
@@ -181,6 +197,47 @@ def test_two_inertias_keep_their_energy(written):
     unit.close()
 
 
+def _derivatives(unit, outputs, of):
+    """Of outputs by one input."""
+    references = [unit.variables[name].valueReference for name in outputs]
+    known, one = [unit.variables[of].valueReference], [1.0]
+    if unit.version == 2:
+        return np.array(unit.unit.getDirectionalDerivative(references, known, one))
+    return np.array(unit.unit.getDirectionalDerivative(references, known, one, nSensitivity=len(references)))
+
+
+@pytest.mark.parametrize("version", [2, 3])
+@pytest.mark.parametrize("design", quick(("helical-crowned", "plain-zi"), "helical-crowned"))
+def test_torques_have_the_derivatives_of_one_energy(written, design, version):
+    """Undamped: symmetric, and along the rotation that keeps every approach nothing but the change of stiffness; by the
+    wheel's angle less by K for each pair that is pressed; of damping, c K δ ρ², of the energy, the torques.
+    """
+    drive, generator = Drive.load(design), np.random.default_rng(6)
+    unit, angles = Unit(written(design, version), stiffness=STIFFNESS), generator.uniform(-1.0, 1.0, 5) * drive.pitch()
+    torques = ("tau_a", "tau_b")
+    for angle in angles:
+        wheel = drive.ratio * angle + drive.cycle([angle]).drive.errors[0] - generator.uniform(2e-6, 1e-4)
+        unit.set(phi_a=angle, phi_b=wheel, w_a=1.0, w_b=drive.ratio, damping=0.0)
+        by_a, by_b = (_derivatives(unit, (*torques, "potential_energy"), of) for of in ("phi_a", "phi_b"))
+        assert by_a[1] == pytest.approx(by_b[0], rel=1e-6)
+        assert [-by_a[2], -by_b[2]] == pytest.approx(unit.get(*torques), rel=1e-7)
+        assert np.sign(by_b[1]) == -1.0 and abs(by_b[1]) <= 8 * STIFFNESS
+        shift, near = 1e-9, []
+        for turned in (-shift, shift):
+            unit.set(phi_b=wheel + turned)
+            near.append(unit.get(*torques))
+        assert by_b[:2] == pytest.approx((np.array(near[1]) - near[0]) / (2.0 * shift), rel=1e-5)
+        unit.set(phi_b=wheel, damping=0.3)
+        by_speed = [_derivatives(unit, torques, of) for of in ("w_a", "w_b")]
+        assert by_speed[0][1] == pytest.approx(by_speed[1][0], rel=1e-6) and by_speed[1][1] < 0.0
+    assert _derivatives(unit, ("transmission_error", "ratio"), "phi_a")[0] == pytest.approx(
+        unit.get("ratio") - drive.ratio, abs=1e-8
+    )
+    with pytest.raises(Exception, match="status 3|failed"):
+        _derivatives(unit, ("tau_a",), "stiffness")
+    unit.close()
+
+
 @pytest.mark.parametrize("version", [2, 3])
 def test_states_are_saved_and_instances_are_apart(written, version):
     path = written("helical-crowned", version)
@@ -240,6 +297,7 @@ def test_a_component_for_other_machines(written):
     [
         (["recess-action-full"], "the drive jams"),
         (["helical-crowned", "--fmi", "2", "--platforms", "amiga"], "FMI 2 has linux64"),
+        (["helical-crowned", "--torque-nm", "20,50"], "a component has one stiffness"),
         (["helical-crowned", "--json", "-"], "--json: --fmu has no use for it"),
     ],
 )

@@ -12,6 +12,7 @@ from meshwright.base.errors import UsageError
 from meshwright.cli import main
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle.pairs import Mesh
+from meshwright.export import stiffness
 from meshwright.export.table import DEGREE, STEP, table
 from tests.contact.test_paths_agree import VARIED, _random
 from tests.embedding import compile as c
@@ -148,6 +149,8 @@ def test_what_edges_may_do_is_said(tmp_path, capsys):
         (["--table", "te.xls"], "name a file that ends in .c"),
         (["--table", "1-te.c"], "use letters, digits and _ alone"),
         (["--table", "te.c", "--json", "-"], "--json: --table has no use for it"),
+        (["--table", "te.c", "--torque-nm", "20"], "te.c has no place for stiffness"),
+        (["--table", "te.json", "--torque-nm", "20,0"], "not torques above zero"),
         (["--rexs", "te.rexs", "--tolerance-arcsec", "1"], "--tolerance-arcsec: --rexs has no use for it"),
         (["--table", "te.c", "--tolerance-arcsec", "1e-9"], "the errors are proved to"),
         (["--table", "te.c", "--coast", "plain-za"], "not the other flank of"),
@@ -164,3 +167,23 @@ def test_flanks_on_edges_have_no_table(tmp_path, capsys):
     words = ["export", "spur-profile-shift", "--set", "misalignment.vertical_deg=0.05", "--table"]
     assert main([*words, str(tmp_path / "te.json")]) == 2
     assert "flanks touch on edges" in capsys.readouterr().err
+
+
+@pytest.mark.validate
+def test_stiffness_at_the_wheel_is_that_of_loaded_contact(tmp_path, monkeypatch, capsys):
+    """T/(m² rotation) of the pinion's torque, at the angles of the table; in Modelica's text too."""
+    monkeypatch.setattr(stiffness, "SAMPLES", 2)
+    path, drive = _written(tmp_path, "te.json", "--torque-nm", "20,50"), Drive.load("helical-crowned")
+    for under in json.loads(path.read_text())["stiffness"]:
+        torque, angles = under["torque_nm"], np.degrees(under["pinion_angle_rad"][:2])
+        asked = ",".join(map(repr, angles.tolist()))
+        assert main(["loaded", "helical-crowned", "--torque-nm", str(torque), f"--phi-deg={asked}", "--json", "-"]) == 0
+        points = json.loads(capsys.readouterr().out)["points"]
+        expected = [torque / (drive.ratio**2 * point["rotation_rad"]) for point in points]
+        assert under["torque_on"] == "pinion"
+        assert under["mesh_at_wheel_nm_per_rad"] == pytest.approx([*expected, expected[0]], rel=1e-9)
+        assert 0.3 * min(expected) < under["pair_at_wheel_nm_per_rad"] < max(expected)
+    lines = _written(tmp_path, "te.txt", "--torque-nm", "20,50").read_text().splitlines()
+    at = lines.index("double stiffness(3,3)")
+    last = [float(word) for word in lines[at + 3].split()]
+    assert last[0] == drive.pitch() and last[2] == under["mesh_at_wheel_nm_per_rad"][2]

@@ -6,10 +6,12 @@ adds measured deviations of a member (a file as of `grid`, filled in) as lists o
 
 --table: error and ratio of the drive over one pitch, all pairs together, both flanks, as polynomials with a proved
 bound (.c, .json, .npz) or as samples of them (.csv, .txt for Modelica). Exit status 1 where an edge may touch before
-the pair that leads, or no pair touches within its limits: the table leaves edges out.
+the pair that leads, or no pair touches within its limits: the table leaves edges out. With --torque-nm, the torques
+of `loaded`, also the stiffness of the mesh under each over a pitch, as a torsion at the wheel (.json, .npz, .txt).
 
 --fmu: a component for simulations by FMI 2.0 or 3.0 (--fmi), model exchange and co-simulation, with the torques of the
-mesh on both shafts; compiled for this machine or for --platforms, by the names that FMI has for them.
+mesh on both shafts; compiled for this machine or for --platforms, by the names that FMI has for them. With --torque-nm
+its stiffness starts with that of a pair under this torque, the mean over a pitch, as of `loaded`; without it with 0.
 
 --crate, --npm: a crate of Rust with the drive's C, which needs a C compiler and no other crate; an ES module with
 WebAssembly for Node and browsers. Both solve the pair in mesh and the whole drive at any angle, with the native bits.
@@ -25,6 +27,7 @@ from meshwright.design import design as designs
 from meshwright.drive import Drive
 from meshwright.export import packages, table_files
 from meshwright.export.fmu import fmu
+from meshwright.export.stiffness import stiffnesses
 from meshwright.export.table import table
 from meshwright.rexs.measurements import with_points
 from meshwright.rexs.origin import origin_of
@@ -53,6 +56,9 @@ def add_arguments(parser):
     parser.add_argument(
         "--tolerance-arcsec", type=common.positive, metavar="T", help="of the table's errors; default: 1e-6"
     )
+    parser.add_argument(
+        "--torque-nm", metavar="T1,T2,…", help="under which --table adds the mesh's stiffness, --fmu takes a pair's"
+    )
     parser.add_argument("--coast", metavar="DESIGN", help="the other flank, where that has a design of its own")
     parser.add_argument("--fmi", choices=("2", "3"), help="version of --fmu; default: 3")
     parser.add_argument("--platforms", metavar="P1,P2,…", help="for which --fmu is compiled, such as linux64,win64")
@@ -65,8 +71,8 @@ def add_arguments(parser):
 
 #: Options that each kind of file has beside those of all.
 OPTIONS = {
-    "rexs": ("json", "new", "measured", "member"), "table": ("tolerance_arcsec", "coast"),
-    "fmu": ("fmi", "platforms", "sources", "allow_jam", "coast"), "crate": ("coast",), "npm": ("coast",),
+    "rexs": ("json", "new", "measured", "member"), "table": ("tolerance_arcsec", "torque_nm", "coast"),
+    "fmu": ("fmi", "platforms", "sources", "allow_jam", "torque_nm", "coast"), "crate": ("coast",), "npm": ("coast",),
 }  # fmt: skip
 
 
@@ -85,8 +91,25 @@ def run(options):
 
 def _fmu(options, drive, coast):
     platforms = () if options.platforms is None else tuple(options.platforms.split(","))
-    fmu(drive, coast, options.fmu, int(options.fmi or 3), platforms, options.sources, options.allow_jam)
+    torques = _torques(options)
+    if len(torques) > 1:
+        raise UsageError(f"--torque-nm {options.torque_nm}: a component has one stiffness; give one torque")
+    (stiffness,) = [under.pair for under in stiffnesses(drive, torques)] or [0.0]
+    fmu(drive, coast, options.fmu, int(options.fmi or 3), platforms, options.sources, options.allow_jam, stiffness)
     return 0
+
+
+def _torques(options):
+    """Torques, N m, of ``T1,T2,…``; none where the option is not given."""
+    if options.torque_nm is None:
+        return []
+    try:
+        torques = [float(word) for word in options.torque_nm.split(",")]
+    except ValueError:
+        torques = [0.0]
+    if any(not torque > 0.0 or common.beyond_arithmetic(torque) for torque in torques):
+        raise UsageError(f"--torque-nm {options.torque_nm}: not torques above zero; for example --torque-nm 20,50")
+    return torques
 
 
 def _package(options, drive, coast):
@@ -99,12 +122,14 @@ def _package(options, drive, coast):
 
 
 def _table(options, drive, coast):
-    table_files.writer(options.table)
+    table_files.writer(options.table, bool(options.torque_nm))
+    torques = _torques(options)
     found, asked = table(drive, (options.tolerance_arcsec or TOLERANCE) * ARCSEC, coast), options.tolerance_arcsec
     bound = found.bound / ARCSEC
     if asked and bound > asked:
         raise UsageError(f"--tolerance-arcsec {asked:g}: the errors are proved to {bound:.2g} only; give that or more")
-    write_bytes(options.table, table_files.content(found, options.table, drive.design.label))
+    stiffness = stiffnesses(drive, torques) if torques else ()
+    write_bytes(options.table, table_files.content(found, options.table, drive.design.label, stiffness))
     pieces = len(found.drive) + len(found.coast)
     print(f"{options.table} written: {pieces} pieces, errors proved to {bound:.2g} arcseconds", file=sys.stderr)
     for flank in found.edges:

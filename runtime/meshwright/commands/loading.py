@@ -5,9 +5,6 @@ import numpy as np
 from meshwright.base.errors import UsageError
 from meshwright.commands import options as common
 
-#: Pairs modelled, and the member whose torque is stated, of a drive whose description does not say.
-PAIRS, STATED_TORQUE = 3, "pinion"
-
 
 def add_arguments(parser):
     common.add_design(parser)
@@ -55,7 +52,7 @@ def loaded_gears(fe, options, drive, step):
     """(gear pair, load, pairs) that the options ask for."""
     step("flanks and blanks")
     gear = fe.solids.gear_pair(drive, options.rim_mm)
-    usual = drive.design.description["loading"] or {"pairs": PAIRS, "torque_on": STATED_TORQUE}
+    usual = fe.model.usual_loading(drive.design.description)
     load = fe.model.Load(1000.0 * options.torque_nm, options.torque_on or usual["torque_on"])
     return gear, load, options.pairs or usual["pairs"]
 

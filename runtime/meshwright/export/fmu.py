@@ -10,7 +10,7 @@ import sys
 import tempfile
 import uuid
 import zipfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
@@ -98,8 +98,9 @@ FIRST_MISALIGNMENT = 100
 SAMPLES = 64
 
 
-def fmu(drive, coast, place, version, platforms=(), sources=False, allow_jam=False):
-    """Write the unit of a drive, and of the drive of its other flank or None, for FMI ``version`` 2 or 3.
+def fmu(drive, coast, place, version, platforms=(), sources=False, allow_jam=False, stiffness=0.0):
+    """Write the unit of a drive, and of the drive of its other flank or None, for FMI ``version`` 2 or 3; ``stiffness``
+    that of a pair with which it starts, N m/rad at the wheel.
 
     ``platforms``: names as in the archive; this machine's unless given. Raises
     :class:`~meshwright.base.errors.UsageError` for a drive that jams, and for platforms that have no compiler.
@@ -110,8 +111,9 @@ def fmu(drive, coast, place, version, platforms=(), sources=False, allow_jam=Fal
             f"--fmu: the drive jams: its least backlash is {np.min(backlash):.3g} rad of the wheel; give the design"
             f" more room, or --allow-jam"
         )
-    variables = (*VARIABLES, *(FLANGES if version == 3 else ()), *_misalignments(drive))
-    text = _source(drive, coast, version)
+    known = [replace(v, start=float(stiffness)) if v.name == "stiffness" else v for v in VARIABLES]
+    variables = (*known, *(FLANGES if version == 3 else ()), *_misalignments(drive))
+    text = _source(drive, coast, version, stiffness)
     token = str(uuid.uuid5(uuid.NAMESPACE_URL, text + header(drive)))
     text = text.replace("@token@", token)
     files = {"modelDescription.xml": _description(drive, version, variables, token, sources)}
@@ -143,7 +145,7 @@ def _misalignments(drive):
     ]  # fmt: skip
 
 
-def _source(drive, coast, version):
+def _source(drive, coast, version, stiffness):
     parameters = drive.design.description["parameters"]
     places = [k for k, p in enumerate(parameters) if p["table"] == "misalignment"]
     other = drive.design if coast is None else coast.design
@@ -162,6 +164,7 @@ def _source(drive, coast, version):
         misaligned=", ".join(map(str, [*places, -1])),
         factors=numbers([*(parameters[k]["factor"] for k in places), 1.0]),
         starts=numbers([*starts, 0.0]),
+        stiffness=repr(float(stiffness)),
     )
 
 
@@ -245,6 +248,7 @@ def _fmi2(words, variables, token, sources):
     outputs = "".join(unknown(v) for v in variables if v.causality == "output")
     initial = "".join(unknown(v) for v in variables if v.causality == "output")
     able = f'modelIdentifier="{IDENTIFIER}" canGetAndSetFMUstate="true" canSerializeFMUstate="true"'
+    able += ' providesDirectionalDerivative="true"'
     return (
         f'<?xml version="1.0" encoding="UTF-8"?>\n<fmiModelDescription fmiVersion="2.0" modelName="{IDENTIFIER}"'
         f' guid="{token}" description={quoteattr(words)} generationTool="meshwright"'
@@ -284,6 +288,7 @@ def _fmi3(words, variables, token, sources):
     initial = "".join(entry("InitialUnknown", v) for v in variables if v.causality == "output")
     gaps = "".join(f'    <EventIndicator valueReference="{reference}"/>\n' for reference in GAPS)
     able = f'modelIdentifier="{IDENTIFIER}" canGetAndSetFMUState="true" canSerializeFMUState="true"'
+    able += ' providesDirectionalDerivatives="true"'
     time = '    <Float64 name="time" valueReference="0" causality="independent" variability="continuous"/>\n'
     return (
         f'<?xml version="1.0" encoding="UTF-8"?>\n<fmiModelDescription fmiVersion="3.0" modelName="{IDENTIFIER}"'

@@ -9,7 +9,7 @@ import numpy as np
 
 from meshwright.base.drives import SHIPPED
 from meshwright.base.errors import UsageError
-from meshwright.base.plain import finite_or_none
+from meshwright.base.plain import finite_or_none, finite_or_nones
 from meshwright.export.table import SHORTEST
 
 #: Rows of sampled files, both ends of the pitch included.
@@ -19,28 +19,35 @@ _COMMENT = re.compile(r"[ \t]*/\*.*?\*/", re.DOTALL)
 _IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
 
-def writer(place):
-    """What writes a file of this ending; raises :class:`~meshwright.base.errors.UsageError` where nothing does."""
+def writer(place, stiff=False):
+    """What writes a file of this ending; raises :class:`~meshwright.base.errors.UsageError` where nothing does, or it
+    has no place for stiffness.
+    """
     found = WRITERS.get(Path(place).suffix.lower())
     if found is None:
         raise UsageError(f"--table {place}: no table ends like this; name a file that ends in {', '.join(WRITERS)}")
     if found is _c and not _IDENTIFIER.fullmatch(Path(place).stem):
         raise UsageError(f"--table {place}: its functions are named after the file; use letters, digits and _ alone")
+    if stiff and found not in WITH_STIFFNESS:
+        raise UsageError(f"--torque-nm: {place} has no place for stiffness; name a file in .json, .npz or .txt")
     return found
 
 
-def content(table, place, heading):
-    """The bytes of the file of a :class:`~meshwright.export.table.Table`; ``heading``: of which drive it is."""
-    return writer(place)(table, Path(place).stem, heading)
+def content(table, place, heading, stiffness=()):
+    """The bytes of the file of a :class:`~meshwright.export.table.Table`; ``heading``: of which drive it is,
+    ``stiffness``: :class:`~meshwright.export.stiffness.Stiffness` under each torque.
+    """
+    more = (stiffness,) if stiffness else ()
+    return writer(place, bool(stiffness))(table, Path(place).stem, heading, *more)
 
 
-def _json(table, _, heading):
+def _json(table, _, heading, stiffness=()):
     def plain(pieces):
         return [
             {"begin_rad": p.begin, "end_rad": p.end, "pair": p.pair, "chebyshev": p.chebyshev.tolist()} for p in pieces
         ]
 
-    document = {
+    document: dict = {
         "schema": "meshwright.table/1",
         "of": heading,
         "pitch_rad": table.pitch,
@@ -52,6 +59,17 @@ def _json(table, _, heading):
         "drive": plain(table.drive),
         "coast": plain(table.coast),
     }
+    if stiffness:
+        document["stiffness"] = [
+            {
+                "torque_nm": under.torque,
+                "torque_on": under.torque_on,
+                "pinion_angle_rad": under.angles.tolist(),
+                "mesh_at_wheel_nm_per_rad": finite_or_nones(under.mesh),
+                "pair_at_wheel_nm_per_rad": under.pair,
+            }
+            for under in stiffness
+        ]
     return (json.dumps(document, indent=1) + "\n").encode()
 
 
@@ -65,7 +83,7 @@ def _csv(table, _, heading):
     return f"pinion_angle_rad,drive_error_rad,drive_ratio,coast_error_rad\n{rows}".encode()
 
 
-def _modelica(table, _, heading):
+def _modelica(table, _, heading, stiffness=()):
     """For ``CombiTable1Ds``, repeated from pitch to pitch: the last value is the first."""
     rows = _samples(table)[:, :2]
     rows[-1, 1] = rows[0, 1]
@@ -73,10 +91,23 @@ def _modelica(table, _, heading):
         raise UsageError("--table: no pair touches at some angles, which this format cannot say; use .json or .c")
     lines = "".join(f"{float(angle)!r} {float(error)!r}\n" for angle, error in rows)
     words = f"# {heading}: pinion angle rad, error rad; extrapolate periodically\n"
-    return f"#1\n{words}double te({len(rows)},2)\n{lines}".encode()
+    return f"#1\n{words}double te({len(rows)},2)\n{lines}{_modelica_stiffness(stiffness)}".encode()
 
 
-def _numpy(table, _, heading):
+def _modelica_stiffness(stiffness):
+    """A second table: the mesh's stiffness under each torque over the pinion angle."""
+    if not stiffness:
+        return ""
+    rows = np.column_stack([stiffness[0].angles, *(under.mesh for under in stiffness)])
+    if not np.isfinite(rows).all():
+        raise UsageError("--torque-nm: at some angles no stiffness is known, which this format cannot say; use .json")
+    lines = "".join(" ".join(map(repr, map(float, row))) + "\n" for row in rows)
+    torques = ", ".join(f"{under.torque:g}" for under in stiffness)
+    words = f"# pinion angle rad, N m/rad at the wheel under {torques} N m on the {stiffness[0].torque_on}\n"
+    return f"{words}double stiffness({len(rows)},{1 + len(stiffness)})\n{lines}"
+
+
+def _numpy(table, _, heading, stiffness=()):
     arrays = {"pitch_rad": table.pitch, "ratio": table.ratio, "sense": table.sense, "error_bound_rad": table.bound}
     arrays |= {"backlash_rad": table.backlash, "of": heading}
     for name in ("drive", "coast"):
@@ -87,6 +118,11 @@ def _numpy(table, _, heading):
         arrays |= {f"{name}_begin_rad": np.array([p.begin for p in pieces]), f"{name}_chebyshev": series}
         arrays |= {f"{name}_end_rad": np.array([p.end for p in pieces])}
         arrays |= {f"{name}_pair": np.array([p.pair for p in pieces], dtype=np.int64)}
+    if stiffness:
+        arrays |= {"torque_nm": np.array([under.torque for under in stiffness]), "torque_on": stiffness[0].torque_on}
+        arrays |= {"stiffness_angle_rad": stiffness[0].angles}
+        arrays |= {"mesh_at_wheel_nm_per_rad": np.stack([under.mesh for under in stiffness])}
+        arrays |= {"pair_at_wheel_nm_per_rad": np.array([under.pair for under in stiffness])}
     stream = io.BytesIO()
     np.savez(stream, **arrays)
     return stream.getvalue()
@@ -114,6 +150,7 @@ def _wrapped(numbers):
     return ",\n    ".join(", ".join(repr(float(number)) for number in row) for row in rows)
 
 
+WITH_STIFFNESS = (_json, _numpy, _modelica)
 WRITERS = {".c": _c, ".json": _json, ".csv": _csv, ".npz": _numpy, ".txt": _modelica}
 
 _BASICS = """#include <math.h>

@@ -29,6 +29,15 @@ _LEAST_FORCE = 0.02
 BodyName = Literal["pinion", "wheel"]
 
 
+#: Pairs modelled, and the member whose torque is stated, of a drive whose description does not say.
+PAIRS, STATED_TORQUE = 3, "pinion"
+
+
+def usual_loading(description):
+    """Pairs modelled and the member whose torque is stated, as is usual for a drive with this description."""
+    return description["loading"] or {"pairs": PAIRS, "torque_on": STATED_TORQUE}
+
+
 @dataclass(frozen=True)
 class Load:
     """Torque in N mm (> 0) on one member; the rim of the other member is held."""

@@ -188,8 +188,13 @@ EXPORT fmi3Status fmi3DeserializeFMUState(fmi3Instance c, const uint8_t bytes[],
     EXPORT fmi3Status fmi3Get##Kind##Derivative(fmi3Instance c, references u, size_t nu, references k, size_t nk, const double s[], \
                                                 size_t ns, double v[], size_t nv) \
     { (void)u, (void)nu, (void)k, (void)nk, (void)s, (void)ns, (void)v, (void)nv; REFUSE }
-NO_DERIVATIVE(Directional)
 NO_DERIVATIVE(Adjoint)
+EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, references u, size_t nu, references k, size_t nk, const double s[],
+                                               size_t ns, double v[], size_t nv)
+{
+    if (ns != nk || nv != nu) return say(OF(c), fmi3Error, "of each variable one number is given and wanted"), fmi3Error;
+    return along(OF(c), u, nu, k, nk, s, v) ? fmi3OK : fmi3Error;
+}
 EXPORT fmi3Status fmi3GetOutputDerivatives(fmi3Instance c, references r, size_t n, const int32_t o[], double v[], size_t nv)
 {
     (void)r, (void)n, (void)o, (void)v, (void)nv;

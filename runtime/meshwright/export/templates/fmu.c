@@ -22,6 +22,7 @@ static const double COASTING[] = { @coasting@ };
 static const int MISALIGNED[] = { @misaligned@ };       /* places of misalignments in p */
 static const double FACTORS[] = { @factors@ };          /* of their keys' units */
 static const double STARTS[] = { @starts@ };
+static const double STIFF = @stiffness@;                /* with which a pair starts, N m/rad at the wheel */
 enum { HAS_COAST = @coast@, MISALIGNMENTS = @misalignments@ };
 
 /* Value references. */
@@ -48,9 +49,19 @@ typedef struct memory {
     int contact, stale, ready;
 } memory;
 
+/* The pairs of a flank by their numbers, which leads, and which are approached and pressed. */
+typedef struct pressed {
+    int count;
+    double leads, number[MOST];
+    int near[MOST], forced[MOST];
+} pressed;
+
+/* frozen: the same pairs lead, are approached and pressed as before, whatever the inputs: then all is smooth. */
 typedef void (*logger)(void);
 typedef struct component {
     memory now;
+    pressed held[2];
+    int frozen;
     logger log;
     void *environment;
     char name[256];
@@ -137,19 +148,46 @@ static double rub(const memory *s, const pair *at, double torque, const double *
     return each * speed;
 }
 
-/* Torques of a flank's pairs on both shafts, energy and loss, where the wheel lags behind the ratio by `behind`; returns the least
- * gap, wheel angle. */
-static double press(memory *s, const double *side, const pair *all, int count, double shift, double behind, double *tau)
+/* The place of a pair, by its number, among those of before; the number of all where it is none. */
+static int place_of(const pressed *held, double number)
 {
+    int at = 0;
+    while (at < held->count && held->number[at] != number) at++;
+    return at;
+}
+
+/* Keep which pairs there are, numbered from `first` on, and which leads, or find that one again. */
+static void hold(const component *m, pressed *held, const pair *all, int count, double first, int *leads)
+{
+    if (!m->frozen) {
+        held->count = count;
+        held->leads = *leads < 0 ? NAN : first + all[*leads].number;
+        for (int k = 0; k < count; k++) held->number[k] = first + all[k].number;
+        return;
+    }
+    for (int k = 0; k < count; k++)
+        if (first + all[k].number == held->leads) *leads = k;
+}
+
+/* Torques of a flank's pairs, numbered from `first` on, on both shafts, energy and loss, where the wheel lags behind the ratio by
+ * `behind`; returns the least gap, wheel angle. */
+static double press(component *m, pressed *held, const double *side, const pair *all, int count, double first, double shift,
+                    double behind, double *tau)
+{
+    memory *const s = &m->now;
     const double sense = side[MWI_SENSE], w[2] = { SIGN * s->value[W_A], SIGN * s->value[W_B] };
     double gap = HUGE_VAL;
     for (int k = 0; k < count; k++) {
         const pair *const at = all + k;
         const double deep = sense * (behind + at->error + shift), speed = sense * (at->ratio * w[0] - w[1]);
         const double K = s->value[STIFFNESS] * at->stiffness, slope = s->value[STIFFNESS] * at->slope;
-        const double F = mwi_larger(0.0, K * deep * (1.0 + s->value[DAMPING] * speed));
+        const double pressing = K * deep * (1.0 + s->value[DAMPING] * speed);
+        const int place = m->frozen ? place_of(held, first + at->number) : k;
         if (-deep < gap) gap = -deep;
-        if (!(deep > 0.0)) continue;
+        if (m->frozen && place == held->count) continue;
+        if (!m->frozen) held->near[k] = deep > 0.0, held->forced[k] = pressing > 0.0;
+        if (!held->near[place]) continue;
+        const double F = held->forced[place] ? pressing : 0.0;
         tau[0] -= sense * F * at->ratio + 0.5 * slope * deep * deep;
         tau[1] += sense * F;
         s->value[ENERGY] += 0.5 * K * deep * deep;
@@ -181,21 +219,23 @@ static int evaluate(component *m)
         say(m, 3, "no tooth pair touches within the limits of its flanks at phi_a: the contact is on an edge, or none");
         return 0;
     }
+    hold(m, m->held, of_drive, driving, number, &leads);
     value[ENERGY] = value[LOSS] = 0.0;
     value[ERROR] = SIGN * of_drive[leads].error;
     value[RATIO] = of_drive[leads].ratio;
     value[BACKLASH] = NAN;
-    value[GAP_DRIVE] = press(s, drive, of_drive, driving, 0.0, behind, tau);
+    value[GAP_DRIVE] = press(m, m->held, drive, of_drive, driving, number, 0.0, behind, tau);
     value[GAP_COAST] = HUGE_VAL;
     if (coast[MWI_KIND] != MWI_ABSENT) {
         const double own = mwi_own_angle(table, mwi_parameters_in(table, coast), angle + s->c[MWI_PINION_OFFSET], &other);
         coasting = pairs_of(coast, own, of_coast, &follows);
+        hold(m, m->held + 1, of_coast, coasting, number + other, &follows);
     }
     if (follows >= 0) {
         shift = ratio * s->c[MWI_PINION_OFFSET] + s->c[MWI_WHEEL_OFFSET];
         shift -= wrapped(of_coast[follows].error + shift - of_drive[leads].error, MWI_TURN / p[table->teeth] * ratio);
         value[BACKLASH] = drive[MWI_SENSE] * (of_coast[follows].error + shift - of_drive[leads].error);
-        value[GAP_COAST] = press(s, coast, of_coast, coasting, shift, behind, tau);
+        value[GAP_COAST] = press(m, m->held + 1, coast, of_coast, coasting, number + other, shift, behind, tau);
     }
     value[TAU_A] = SIGN * tau[0];
     value[TAU_B] = SIGN * tau[1];
@@ -219,6 +259,7 @@ static void restart(component *m)
 {
     memset(&m->now, 0, sizeof m->now);
     for (int k = 0; k < MISALIGNMENTS; k++) m->now.misalignment[k] = STARTS[k];
+    m->now.value[STIFFNESS] = STIFF;
     m->now.stale = 1;
 }
 
@@ -260,6 +301,41 @@ static int set_real(component *m, unsigned int reference, double value)
     if (!(mwi_abs(value) < HUGE_VAL)) return say(m, 3, "an input is not a finite number"), 0;
     if (m->now.value[reference] != value) m->now.value[reference] = value, m->now.stale = 1;
     return 1;
+}
+
+/* du[nu] of outputs u along dk[nk] of inputs k: differences of fourth order in steps of a part of a pitch, or of the speed, of the
+ * same pairs that are pressed now. 0 where an output or an input is none. */
+static int along(component *m, const unsigned int *u, size_t nu, const unsigned int *k, size_t nk, const double *dk, double *du)
+{
+    static const double AT[4] = { -2.0, -1.0, 1.0, 2.0 }, WEIGHT[4] = { 1.0 / 12.0, -2.0 / 3.0, 2.0 / 3.0, -1.0 / 12.0 };
+    static const double PART = 1.0 / 4096.0;
+    if (!m->now.ready && !assemble(m)) return 0;
+    m->now.stale = 1; /* a state may have been put back since */
+    if (!evaluate(m)) return 0;
+    const double ratio = m->now.c[MWI_RATIO], pitch = MWI_TURN / mwi_parameters_in(&X(model), m->now.c + MWI_SIDES)[X(model).teeth];
+    const memory before = m->now;
+    int there = 1;
+    for (size_t i = 0; i < nu; i++) du[i] = 0.0;
+    for (size_t j = 0; j < nk && there; j++) {
+        if (k[j] < PHI_A || k[j] > W_B) return say(m, 3, "no derivative by this variable: it is no input"), 0;
+        const double of[4] = { pitch, 1.0 + mwi_abs(before.value[W_A]), pitch * mwi_abs(ratio), 1.0 + mwi_abs(before.value[W_B]) };
+        const double step = PART * of[k[j] - PHI_A];
+        m->frozen = 1;
+        for (int e = 0; e < 4 && there; e++) {
+            m->now = before;
+            m->now.value[k[j]] += AT[e] * step;
+            m->now.stale = 1;
+            there = evaluate(m);
+            for (size_t i = 0; i < nu && there; i++) {
+                if (!(u[i] >= TAU_A && u[i] < REALS) || u[i] == CONTACT || u[i] == LEADING)
+                    there = (say(m, 3, "no derivative of this variable: it is no continuous output"), 0);
+                else du[i] += dk[j] * WEIGHT[e] * m->now.value[u[i]] / step;
+            }
+        }
+        m->frozen = 0;
+        m->now = before;
+    }
+    return there;
 }
 
 static component *begin(const char *name, logger log, void *environment)
