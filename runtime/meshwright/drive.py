@@ -179,15 +179,9 @@ class Drive:
         Where no tangency of the flanks is found, or one along a line: the extreme of the wheel's turn over both bounded
         flanks, which is a line, an edge, a corner or nothing.
         """
-        from meshwright.cycle.bounded import bounded
+        from meshwright.cycle.bounded import rigid_contact
 
-        angles = analysis.checked_angles(angles)
-        result = analysis.analyse(self, angles)
-        outside = result.outside_the_tips
-        if outside.any() and self.past_the_tips:
-            result = result.without_contact(outside)
-        result = bounded(self, result)
-        return flags.flagged(result, self.edge_window)
+        return flags.flagged(rigid_contact(self, analysis.checked_angles(angles)), self.edge_window)
 
     def turn(self, angles):
         """The pair in mesh and its contact at pinion angles (rad) of any size, for a drive that turns on:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshwright.base.library import library, pointer, record
-from meshwright.contact.analysis import checked_angles, statuses
+from meshwright.contact.analysis import at_solutions, checked_angles, statuses
 
 
 @dataclass(frozen=True)
@@ -41,10 +41,9 @@ def turning(drive, angles):
         pointer(records, "mw_info[]"),
     )  # fmt: skip
     words = statuses()
-    return Turning(
-        angles,
-        (sign * records["pair"]).astype(np.int64),
-        sign * records["angle"],
-        sign * x[:, m.error],
-        [words[code] for code in records["status"].tolist()],
-    )
+    named = [words[code] for code in records["status"].tolist()]
+    errors = sign * x[:, m.error]
+    if drive.past_the_tips:  # of the flanks as they go on: as of tca, the teeth do not reach each other
+        for k in np.flatnonzero(at_solutions(drive, records["angle"], x).outside_the_tips):
+            named[k], errors[k] = "no_contact", np.nan
+    return Turning(angles, (sign * records["pair"]).astype(np.int64), sign * records["angle"], errors, named)

@@ -8,12 +8,23 @@ from dataclasses import replace
 
 import numpy as np
 
-from meshwright.contact.analysis import at_solutions, status_text
+from meshwright.contact.analysis import analyse, at_solutions, status_text
 from meshwright.contact.placement import inverse, placed
 from meshwright.cycle.first_contact import FLAT, OVERLAP, STATUSES, Search
 
 #: A smaller principal curvature of the gap below this share of the larger one may be that of a line.
 NEARLY_FLAT = 1e-6
+
+
+def rigid_contact(drive, angles):
+    """The :class:`~meshwright.contact.results.TCA` of the bounded flanks at pinion angles (N,), rad: tangencies, lines,
+    edges and corners; what lies outside the tips is no contact of teeth that do not reach each other.
+    """
+    result = analyse(drive, angles)
+    outside = result.outside_the_tips
+    if outside.any() and drive.past_the_tips:
+        result = result.without_contact(outside)
+    return bounded(drive, result)
 
 
 def bounded(drive, result):

@@ -58,7 +58,14 @@ SEARCHES = 2
 
 #: What stands for the ridge as a start; over how many pitches it is followed from where it is known.
 RIDGE = object()
-RIDGE_REACH = 0.5
+RIDGE_REACH = 4.0
+
+#: Steps in which it is followed, per pitch, until it is not lost on the way.
+RIDGE_STEPS = (24, 96)
+
+#: In which steps, in pitches, and how many to either side of the reference angle it is sought.
+RIDGE_SOUGHT = 0.25
+RIDGE_LOOKS = 8
 
 #: What stands for a first contact where the flanks meet, but a search for their extreme ends nowhere; and where flanks
 #: meet that nothing ends.
@@ -322,7 +329,8 @@ class SearchedFlank:
     """A mesh over the wheel's bounded flank: a ``table`` for C, of arrays that are ``kept`` with it. ``solutions``
     (P, nx) of contacts in the middle, or the places from which they are sought, at ``angles`` (P,), right hand;
     ``pointless``: none of them is a contact in a point; ``extent``: longest side of a box about the flank, mm;
-    ``found``: first contacts by angle, ``ridges``: depths and deepest places of the ridge of the wheel's turn.
+    ``found``: first contacts by angle, ``ridges``: depths and deepest places of the ridge of the wheel's turn,
+    ``sought``: angles at which it was looked for from start values.
     """
 
     table: object
@@ -333,6 +341,7 @@ class SearchedFlank:
     extent: float
     found: dict = field(default_factory=dict, repr=False)
     ridges: dict = field(default_factory=dict, repr=False)
+    sought: set = field(default_factory=set, repr=False)
 
     @classmethod
     def of(cls, drive):
@@ -595,7 +604,7 @@ class Search:
 
     def _one(self, angle, until):
         """As :meth:`at` at one angle, and the last ``mw_first`` that C gave: from a contact known there, the start
-        values, other contacts and, where that is known or no contact is one in a point, the ridge.
+        values, other contacts and, where no contact is one in a point, the ridge.
         """
         away = np.abs(self.solved_at - angle)
         order = np.argsort(away, kind="stable")
@@ -604,8 +613,7 @@ class Search:
         starts = [(self.solved_at[k], self.solutions[k]) for k in order[[i for i in STARTS if i < len(order)]]]
         starts.insert(int(bool(starts) and starts[0][0] == angle), (angle, None))
         ended, empty, found = 0, 0, None
-        ridge = [(angle, RIDGE)] if self.flank.pointless or self.flank.ridges else []
-        for known_at, x in (*starts, *ridge):
+        for known_at, x in (*starts, *([(angle, RIDGE)] if self.flank.pointless else [])):
             if x is RIDGE:
                 depth, place = self._ridge(float(angle))
                 if math.isnan(depth):
@@ -710,25 +718,32 @@ class Search:
 
     def _ridge(self, angle):
         """Depth and place of the ridge at an angle: from the start values there or, where they do not lead to it, from
-        the nearest angle at which it is known.
+        the nearest angle at which they do.
         """
-        known = self.flank.ridges
-        for at in () if angle in known else (self.drive.design.reference_angle, angle):
-            if at not in known:
+        known, sought, step = self.flank.ridges, self.flank.sought, RIDGE_SOUGHT * self.drive.pitch()
+        around = (self.drive.design.reference_angle + k * step for k in range(-RIDGE_LOOKS, RIDGE_LOOKS + 1))
+        for at in (angle, *sorted(around, key=lambda at: abs(at - angle))):
+            if at not in sought and at not in known:
+                sought.add(at)
                 depth, found = self._deepest(at, self._place(start_values(self.drive, [at])[0]))
                 if not math.isnan(depth):
                     known[at] = depth, found
+            if at in known:
+                break
         if angle in known or not known:
             return known.get(angle, (math.nan, ffi.new("mw_first *", {"limit": (-1, -1)})))
         near = min(known, key=lambda at: abs(at - angle))
-        share, (depth, found) = abs(angle - near) / self.drive.pitch(), known[near]
-        if share > RIDGE_REACH:
-            return math.nan, found
-        for at in np.linspace(near, angle, 1 + math.ceil(share * STEPS_PER_PITCH))[1:]:
-            depth, found = self._deepest(at, found)
-            if math.isnan(depth):
-                return depth, found
-        known[angle] = depth, found
+        depth, found = math.nan, known[near][1]
+        share = abs(angle - near) / self.drive.pitch()
+        for steps in RIDGE_STEPS if share <= RIDGE_REACH else ():
+            depth, found = known[near]
+            for at in np.linspace(near, angle, 1 + math.ceil(share * steps))[1:]:
+                depth, found = self._deepest(at, found)
+                if math.isnan(depth):
+                    break
+            else:
+                known[angle] = depth, found
+                break
         return depth, found
 
     def _deepest(self, angle, start):

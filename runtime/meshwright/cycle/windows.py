@@ -8,6 +8,8 @@ import numpy as np
 
 from meshwright.base.roots import bracketed
 from meshwright.contact.branch import fold_angle
+from meshwright.contact.results import TOUCHING
+from meshwright.cycle.bounded import rigid_contact
 from meshwright.cycle.first_contact import STATUSES, Search
 from meshwright.cycle.line_windows import line_ends
 from meshwright.cycle.path import SHORT_OF_FOLD, Path
@@ -102,7 +104,7 @@ def contact_window(drive):
         if (found := _of_lines(drive, limits)) is not None:
             return found
         if _past_the_tips(path, limits):
-            return Window(NO_EVENT, NO_EVENT, None, "no_contact")
+            return Window(NO_EVENT, NO_EVENT, None, status_at(drive, drive.design.reference_angle, "no_contact"))
         return Window(NO_EVENT, NO_EVENT, path)
     return Window(*_in_order(drive, ends), _with_margin(path, ends))
 
@@ -113,7 +115,8 @@ def _of_lines(drive, limits):
     middle = 0.5 * (ends[0].angle + ends[1].angle)
     if not math.isfinite(middle):
         return None
-    return Window(*_in_order(drive, ends), None, status_at(drive, middle, "line_contact"))
+    (status,) = rigid_contact(drive, np.array([_mirror(drive) * middle])).status
+    return Window(*_in_order(drive, ends), None, status) if status in TOUCHING else None
 
 
 def status_at(drive, angle, otherwise):
