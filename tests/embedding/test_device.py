@@ -9,6 +9,7 @@ import pytest
 
 from meshwright import Drive
 from meshwright.base.library import pointer
+from tests import snippets
 from tests.embedding import compile as c
 from tests.embedding import nvrtc
 from tests.embedding.test_headers import DRIVES, FAMILIES
@@ -79,6 +80,13 @@ def test_nvrtc_compiles_every_header_alone_and_fuses_nothing(drive):
     assert ".visible .entry kernel(" in made
     assert "sqrt.rn.f64" in made and "div.rn.f64" in made
     assert not re.search(r"\bfma\b|\.approx|\.ftz|\.extern", made)
+
+
+@pytest.mark.skipif(nvrtc.library() is None, reason="NVRTC is not installed: pip install nvidia-cuda-nvrtc-cu12")
+def test_nvrtc_compiles_what_the_page_says():
+    page = (c.ROOT / "runtime" / "site" / "tutorial" / "embedding.md").read_text(encoding="utf-8")
+    (text,) = (block for language, block in snippets.blocks(page) if language == "c" and "__global__" in block)
+    assert "entry" in nvrtc.ptx(text, f"-I{c.GENERATED}")
 
 
 def _followed(drive, folder, how):

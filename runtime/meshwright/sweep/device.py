@@ -18,7 +18,7 @@ from meshwright.base.library import SHIPPED
 DEVICES = ("cuda",)
 
 #: Of each operation the rounded result, as on the host.
-OPTIONS = ("--fmad=false", "--std=c++11")
+OPTIONS = ("--fmad=false",)
 
 #: Threads that a multiprocessor is given at once.
 BLOCK = 128
