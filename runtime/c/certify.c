@@ -7,6 +7,9 @@
  * natural sizes; else it is refined. */
 static const double NARROW = 1e-24;
 
+/* How often a point that is proved in doubles is moved to where the residual there says: closer by as much each time. */
+enum { ROUNDS = 2 };
+
 const char *mw_reason_word(int reason)
 {
 #define MW_WORD(code, value, word, text) if (reason == value) return word;
@@ -99,7 +102,7 @@ static int enclose_quickly(const mw_model *m, mwc_problem *p, const double *x, m
     const mw_enclosing *by = m->kernels->enclosing();
     const int n = p->n;
     double C[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], M[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], near[MW_MAX_UNKNOWNS];
-    double proved[1], z[MW_MAX_UNKNOWNS][1], K[MW_MAX_UNKNOWNS][1], e[MW_MAX_UNKNOWNS][1];
+    double bound[MW_MAX_UNKNOWNS], proved[1], z[MW_MAX_UNKNOWNS][1], K[MW_MAX_UNKNOWNS][1], e[MW_MAX_UNKNOWNS][1];
     mw_ball R[MW_MAX_UNKNOWNS], J[MW_MAX_UNKNOWNS * MW_MAX_UNKNOWNS], shift[MW_MAX_UNKNOWNS];
     for (int i = 0; i < n; i++) found->box[i] = p->sizes[i] * MWC_FIRST_BOX;
     mwc_linearise(by, t, p, own, x, found->box, &R[0].mid, &J[0].mid);
@@ -108,18 +111,30 @@ static int enclose_quickly(const mw_model *m, mwc_problem *p, const double *x, m
     for (int i = 0; i < n; i++) near[i] = e[i][0], found->x[i] = mwc_wide_of(x[i]);
     mwc_linearise(by, t, p, own, x, near, NULL, &J[0].mid);
     if (!mwc_inverse(n, J, C)) return 0;
-    mwc_residual_at(p, found->x, R);
-    mwc_shift(n, C, R, shift);
     mwc_defect(n, C, J, M);
-    for (int i = 0; i < n; i++) {
-        double rest = shift[i].radius;
-        for (int j = 0; j < n; j++) rest += M[i * n + j] * near[j];
-        found->x[i].hi = mwc_two_sum(x[i], -shift[i].mid, &found->x[i].lo);
-        found->within[i] = rest * MWC_READ;
-        found->box[i] = (found->box[i] - mwc_abs(shift[i].mid)) * (1.0 - 4.0 * MWC_U);
-        if (!(found->within[i] < found->box[i] && found->within[i] < NARROW * p->sizes[i])) return 0;
+    for (int round = 0; round < ROUNDS; round++) {
+        int narrow = 1, about = 1;
+        mwc_residual_at(p, found->x, R);
+        mwc_shift(n, C, R, shift);
+        for (int i = 0; i < n; i++) {
+            double rest = shift[i].radius;
+            for (int j = 0; j < n; j++) rest += M[i * n + j] * (round ? found->within[j] : near[j]);
+            bound[i] = rest;
+        }
+        for (int i = 0; i < n; i++) {
+            if (round) found->x[i] = mwc_wide_add(found->x[i], mwc_wide_of(-shift[i].mid));
+            else found->x[i].hi = mwc_two_sum(x[i], -shift[i].mid, &found->x[i].lo);
+            found->within[i] = (bound[i] + found->x[i].radius) * MWC_READ;
+            found->x[i].radius = 0.0; /* a point, whichever it is */
+            found->box[i] = (found->box[i] - mwc_abs(shift[i].mid)) * (1.0 - 4.0 * MWC_U);
+            if (!(found->within[i] < found->box[i])) return 0;
+            narrow = narrow && found->within[i] < NARROW * p->sizes[i];
+            about = about && mwc_abs(shift[i].mid) <= near[i];
+        }
+        if (narrow) return 1;
+        if (!about) return 0; /* the solution and the new point lie where the slopes are enclosed, and all between */
     }
-    return 1;
+    return 0;
 }
 
 /* One certificate, p posed. */
