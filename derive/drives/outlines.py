@@ -24,7 +24,7 @@ STEEPER = ((15, sp.Rational(5, 2)), (25, sp.Rational(5, 2)), (35, 5))
 
 def worm(tools):
     """Of worms and hobs that these tools make."""
-    arc = {"worm_profile": ("ZC",)}
+    arc, straight = {"worm_profile": ("ZC",)}, ("ZA", "ZI", "ZN", "ZK")
     shift = Suggestion("", (0 * m,), name="x")
     shift_arc = replace(shift, values=(sp.Rational(1, 2) + 0 * m,), words=arc)
     x = shift.symbol
@@ -134,6 +134,10 @@ def worm(tools):
                 "the root fillet, at most what fits on the hob's tip", decimals=3,
             ),
         ),
+        apart=tuple(
+            ({own: ("ZC",), mate: straight}, "a hollow thread and a hob of another form do not follow each other")
+            for own, mate in (("worm_profile", "hob_profile"), ("hob_profile", "worm_profile"))
+        ),
     )  # fmt: skip
 
 
@@ -172,6 +176,10 @@ def spherical():
                 )
             ),
             Suggestion("design.face_width_mm", (4 * m,), "four modules", decimals=2),
+        ),
+        apart=tuple(
+            ({f"{own}_form": ("concave",), f"{mate}_form": ("concave", "spur")}, "a hollow tooth takes a convex one")
+            for own, mate in (("pinion", "wheel"), ("wheel", "pinion"))
         ),
     )
 

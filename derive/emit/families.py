@@ -53,7 +53,8 @@ def _outline(outline):
         }
         for s in outline.suggestions
     ]  # fmt: skip
-    return {"options": outline.options, "words": outline.words, "suggestions": suggestions}
+    apart = [{"words": words, "why": why} for words, why in outline.apart]
+    return {"options": outline.options, "words": outline.words, "suggestions": suggestions, "apart": apart}
 
 
 def agrees(families, described, shared):

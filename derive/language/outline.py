@@ -42,8 +42,12 @@ class Suggestion:
 
 @dataclass(frozen=True)
 class Outline:
-    """What ``meshwright new`` needs of a family: what its options mean, words that choose a drive, suggestions."""
+    """What ``meshwright new`` needs of a family: what its options mean, words that choose a drive, suggestions.
+
+    ``apart`` are words (key → words) of which no first design has all together, each with the reason.
+    """
 
     options: dict[str, str]
     words: dict[str, str]
     suggestions: tuple[Suggestion, ...]
+    apart: tuple[tuple[dict[str, tuple[str, ...]], str], ...] = ()

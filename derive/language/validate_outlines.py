@@ -35,6 +35,10 @@ def _outline(outline: Outline, drives: Sequence[Drive]) -> Iterator[str]:
     for key, word in outline.words.items():
         if word not in words.get(key, ()) and word:
             yield f"{key} = {word!r} chooses no drive; {_offer(words.get(key) or words)}"
+    for named, _ in outline.apart:
+        for key, meant in named.items():
+            if unknown := {*meant} - words.get(key, set()):
+                yield f"{key} = {', '.join(sorted(unknown))} chooses no drive; {_offer(words.get(key) or words)}"
     for s in outline.suggestions:
         what = f"the suggestion for {s.place or s.name}"
         if s.place and s.place not in places and s.place != "design.hand":

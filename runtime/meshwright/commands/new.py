@@ -58,13 +58,24 @@ SIZES_OF = ("design", "blank")
 
 
 def _stems(family):
-    """Place of every size of a family by the option that stands for it: its key without the unit."""
+    """Place of every size of a family by the option that stands for it: its key without the unit.
+
+    A radius is a diameter too, and a diameter a radius.
+    """
+    listed = [(place, p) for table in SIZES_OF for place, p in family.drawing.places.items() if p["table"] == table]
     found = {}
-    for table in SIZES_OF:
-        for place, p in family.drawing.places.items():
-            if p["table"] == table:
-                found.setdefault(p["key"].removesuffix(f"_{p['key_unit']}").replace("_", "-"), place)
+    for place, p in listed:
+        found.setdefault(_option(p["key"].removesuffix(f"_{p['key_unit']}")), place)
+    for c in family.drawing.table["conversions"]:
+        for place, p in listed:
+            if p["key"].endswith(c["of"]) and c["factor"] == 1.0:
+                other = place.removesuffix(c["of"]) + c["ending"]
+                found.setdefault(_option(other.partition(".")[2].removesuffix(f"_{p['key_unit']}")), other)
     return found | {"hand": "design.hand"} if family.handed else found
+
+
+def _option(key):
+    return key.replace("_", "-")
 
 
 def _sizes(family, options):
@@ -93,7 +104,12 @@ def _offered():
         offered = _offers(family)
         lines += [f"    --profile   {':'.join(offered)}"] if offered else []
         lines += [f"      {key:<13} {', '.join(words)}" for key, words in offered.items()]
+        lines += [f"      not {_together(entry['words'])}: {entry['why']}" for entry in family.outline.get("apart", ())]
     return "\n".join(lines) + "\n"
+
+
+def _together(words):
+    return " with ".join(f"{key} {' or '.join(meant)}" for key, meant in words.items())
 
 
 def _offers(family):
@@ -238,8 +254,8 @@ def _short(drive):
 CHANGES = (0.25, -0.25, 0.1, -0.1)
 
 #: Sizes that mend a design are named at most so many, and designs looked at for them.
-MOST_MENDS = 3
-MOST_LOOKS = 24
+MOST_MENDS = 2
+MOST_LOOKS = 12
 
 
 def _mended(first, design):
@@ -247,7 +263,8 @@ def _mended(first, design):
 
     What is assumed last, with most of the rest known, is tried first.
     """
-    sizes = [(place, size) for place, size, _ in reversed(first.assumed) if "." in place and isinstance(size, float)]
+    assumed = [(place, size) for place, size, why in reversed(first.assumed) if why and "." in place]
+    sizes = [(place, size) for place, size in assumed if isinstance(size, float)]
     looks = [(place, number, by) for by in CHANGES for place, number in sizes]
     named = set()
     for place, number, by in looks[:MOST_LOOKS]:
@@ -306,6 +323,10 @@ def _words(family, text):
         if family.chosen(whole) is None:
             listed = "; ".join(f"{key}: {', '.join(found)}" for key, found in _offers(family).items())
             raise UsageError(f"--profile {text}: no drive of this family has these words; {listed}")
+        for entry in family.outline.get("apart", ()):
+            if all(whole[key] in meant for key, meant in entry["words"].items()):
+                named = ", ".join(f"{key} = {whole[key]}" for key in entry["words"])
+                raise UsageError(f"--profile {text}: {named}: {entry['why']}; change one of these words")
     return words
 
 

@@ -17,6 +17,9 @@ ASTRAY = 0.1
 WIDTH = 100
 INDENTED = {"initial_indent": "  ", "subsequent_indent": "  ", "break_long_words": False, "break_on_hyphens": False}
 
+#: Digits that round-off adds to a number, at least.
+ROUND_OFF = 4
+
 #: Why a value of one's own that no suggestion knows is there: whoever sets it has to see to the rest.
 ALONE = "as given; no other size follows it"
 
@@ -176,8 +179,14 @@ def _number(suggestion, symbols):
     found = next((v for e in suggestion["values"] if math.isfinite(v := value(e, symbols))), math.nan)
     if suggestion["whole"] and math.isfinite(found):
         return int(found)
-    found = float(f"{found:.14g}") if suggestion["decimals"] is None else round(found, suggestion["decimals"])
+    found = _plain(found) if suggestion["decimals"] is None else round(found, suggestion["decimals"])
     return found + 0.0  # no minus before 0
+
+
+def _plain(number):
+    """The number without round-off, where it is a shorter one but for that: others keep every digit."""
+    short = float(f"{number:.14g}")
+    return short if len(repr(short)) + ROUND_OFF < len(repr(number)) else number
 
 
 def _toml(number):
