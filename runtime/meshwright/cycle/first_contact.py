@@ -16,6 +16,8 @@ import numpy as np
 
 from meshwright.base.library import ffi, library, pointer, record
 from meshwright.base.plain import finite_or_none, finite_or_nones
+from meshwright.contact.analysis import at_solutions
+from meshwright.contact.flags import on_flanks
 from meshwright.contact.placement import placed, placements_at
 from meshwright.contact.results import SOLVED
 from meshwright.flank.bounds import OPEN
@@ -328,9 +330,9 @@ def _event(bodies, member, limit):
 class SearchedFlank:
     """A mesh over the wheel's bounded flank: a ``table`` for C, of arrays that are ``kept`` with it. ``solutions``
     (P, nx) of contacts in the middle, or the places from which they are sought, at ``angles`` (P,), right hand;
-    ``pointless``: none of them is a contact in a point; ``extent``: longest side of a box about the flank, mm;
-    ``found``: first contacts by angle, ``ridges``: depths and deepest places of the ridge of the wheel's turn,
-    ``sought``: angles at which it was looked for from start values.
+    ``pointless``: none of them is a contact in a point of both flanks; ``extent``: longest side of a box about the
+    flank, mm; ``found``: first contacts by angle, ``ridges``: depths and deepest places of the ridge of the wheel's
+    turn, ``sought``: angles at which it was looked for from start values.
     """
 
     table: object
@@ -357,7 +359,7 @@ class SearchedFlank:
             if found is not None:
                 use = known if np.isfinite(known).any() else sought
                 solved = np.isfinite(use).all(axis=1)
-                return cls._of(found, here[solved], use[solved], not set(SOLVED) & set(words))
+                return cls._of(found, here[solved], use[solved], not _in_a_point(drive, here, known, words))
         return None
 
     @classmethod
@@ -381,6 +383,14 @@ class SearchedFlank:
         table.span = whole.chart.free
         extent = float(np.ptp(triangles.points, axis=0).max())
         return cls(table, (kept, views), angles, solutions, pointless, extent)
+
+
+def _in_a_point(drive, angles, unknowns, words):
+    """Whether flanks touch in a point of both at one of some angles (N,): ``unknowns`` and status ``words`` there."""
+    solved = np.isin(words, SOLVED)
+    found = at_solutions(drive, angles[solved], unknowns[solved])
+    on_both = np.array([on_flanks(flags) for flags in found.flags], dtype=bool)
+    return bool((found.solved & on_both).any())
 
 
 def _triangulated(drive, unknowns):
@@ -604,7 +614,7 @@ class Search:
 
     def _one(self, angle, until):
         """As :meth:`at` at one angle, and the last ``mw_first`` that C gave: from a contact known there, the start
-        values, other contacts and, where no contact is one in a point, the ridge.
+        values, other contacts and, where no contact is one in a point of both flanks, the ridge.
         """
         away = np.abs(self.solved_at - angle)
         order = np.argsort(away, kind="stable")
