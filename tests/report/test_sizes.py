@@ -78,11 +78,13 @@ def test_a_drawing_says_where_each_size_is_from(tmp_path):
     assert rows["pinion_lead_crowning_um"][5:] == ("assumed", "proposed, not given")
     assert rows["pinion_span_mm"][4:6] == ("W_k_pinion", "derived") and "inv" not in rows["pinion_span_mm"][6]
     assert ("undercut pinion", "does not occur") in {row[:2] for row in checks.rows}
+    listed = shown.drive.with_(design={"normal_backlash_mm": 0.1}, assumed=["design.normal_backlash_mm"])
+    assert listed.drawing().sizes["normal_backlash_mm"].provenance == "given"  # what is changed is taken off the list
     changed = shown.drive.with_(design={"pinion_lead_crowning_um": 6.0})
     assert changed.drawing().sizes["pinion_lead_crowning_um"].provenance == "given"
 
 
-@pytest.mark.parametrize("listed", ["design.face_width_mm", ["design.face_width"], [3]])
+@pytest.mark.parametrize("listed", ["design.face_width_mm", ["design.face_width"], ["drive.r"], [3], [[]]])
 def test_a_list_of_what_is_assumed_that_names_no_key_is_bad_input(listed):
     with pytest.raises(DesignError, match="assumed"):
         Drive.load("helical-crowned").with_(assumed=listed)

@@ -130,7 +130,7 @@ def changed(tables, changes):
             raise DesignError(place, value, f"{table} is not a table", "write table.key=value")
         target[key] = value
     if isinstance(tables.get("assumed"), list):
-        tables["assumed"] = [place for place in tables["assumed"] if place not in changes]
+        tables["assumed"] = [place for place in tables["assumed"] if place not in [*changes]]
     return tables
 
 
@@ -332,6 +332,8 @@ def from_drawing(tables, places=None):
             number = outer(p, known.value)
             if number != family.variant_defaults.get(place.removeprefix("design.")):
                 changes[place] = number
+    if isinstance(listed := tables.get("assumed"), list):
+        kept["assumed"] = [place for place in listed if place not in [*entries] or place in [*own]]
     return changed(kept, changes)
 
 

@@ -83,7 +83,7 @@ def sheet(design):
     completion = Completion.of(
         drawing, schema.drawn(design.family, given, design.places), judged=design.drawn is not None
     )
-    known = completion.known
+    known, proposed = completion.known, given.get("assumed", ())
     for number, p in zip(design.parameters, design.description["parameters"], strict=True):
         provenance = DERIVED if p["default"] is None else ASSUMED
         if p["key"] in design.given().get(p["table"], ()):
@@ -98,7 +98,7 @@ def sheet(design):
             symbol = "" if p["name"] in (p["key"], p.get("place")) else p["name"]
             key = drawing.table["tables"].get(p["table"], "") + p["key"]
             source, why = size.provenance, size.why(p["name"])
-            if source == GIVEN and f"{p['table']}.{p['key']}" in design.tables["assumed"]:
+            if source == GIVEN and f"{p['table']}.{p['key']}" in proposed:
                 source, why = ASSUMED, PROPOSED
             sizes[key] = Size(p["table"], outer(p, size.value), symbol, p["meaning"], source, why)
     for s in design.description["sizes"]:

@@ -275,15 +275,15 @@ def checked(family: str, tables: dict, places: tuple | None = None) -> dict:
         checked_tables[table] = {name: _given(entries, name, f"{table}.{name}", key) for name, key in keys.items()}
     for place in checked_tables["assumed"]:
         table, _, name = place.rpartition(".")
-        if name not in tables.get(table, ()):
+        if not isinstance(entries := tables.get(table), dict) or name not in entries:
             raise DesignError("assumed", place, "no key that the design gives", "leave it out of the list")
     return checked_tables
 
 
-def drawn(family: str, tables: dict, places: tuple | None = None) -> dict[str, Any]:
+def drawn(family: str, tables: dict, places: tuple | None = None) -> dict[str, object]:
     """What raw tables give of the sizes of a drawing, by "table.key", each checked by itself: see :func:`checked`."""
     known, drawing = form(family, places), metadata.families(places)[family].drawing
-    found: dict[str, Any] = {}
+    found: dict[str, object] = {}
     stated = [name for name in known.loose if f"{name}.{name}" in drawing.places and name in tables]
     alone = {name: {name: tables[name]} for name in stated}
     for table, entries in (tables | alone).items():
