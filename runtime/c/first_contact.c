@@ -178,7 +178,7 @@ int mw_first_lasts(const mw_model *m, const double *s, const mw_flank_mesh *mesh
     stretch b;
     place *at[3], leads;
     int open = 0;
-    if (!mwi_usable(m) || !(share > 0.0 && share < 1.0)) return 0;
+    if (!mwi_usable(m) || !m->kernels || !m->kernels->bounded || !(share > 0.0 && share < 1.0)) return 0;
     b.share = share;
     b.lever = 0.0;
     b.budget = LASTING_BUDGET;

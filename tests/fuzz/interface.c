@@ -527,9 +527,10 @@ static void tangents(reader *r, fuzzed *f)
     double *change = changes(r, m->np);
     if (f->completed) mw_sensitivity(m, f->given, f->p, phi, f->s, x, change, dp, dx, dr);
     mw_contact_tangent(m, f->p, change, phi, number(r, 0.0), f->s, x, dx, dr);
+    mw_contact_motion(m, f->p, &phi, 1, x, numbers((size_t)m->ns), numbers(np + nx), dr);
     mw_flank_tangent(m, body, f->p, change, q, 3, dr);
     if (f->completed) mw_complete_tangent(m, f->given, f->p, change);
-    calls += 4;
+    calls += 5;
 }
 
 static void words(reader *r, fuzzed *f)
@@ -612,6 +613,24 @@ static void along(reader *r, fuzzed *f, const mw_flank_mesh *mesh, const double 
     calls += 2;
 }
 
+/* What was found at one angle, followed over others, and asked whether it leads between three that are alike. */
+static void between(reader *r, fuzzed *f, const mw_flank_mesh *mesh, const double *pinion, const double *wheel, size_t steps,
+                    double turn, double sense, const mw_first *at, double *work)
+{
+    double *three[2] = { numbers(36), numbers(36) }, *met[3] = { work, work, work };
+    mw_first *found = room(steps + 3, sizeof *found);
+    for (int k = 0; k < 3; k++) {
+        memcpy(three[0] + 12 * k, pinion + 12 * (steps - 1), 12 * sizeof *pinion);
+        memcpy(three[1] + 12 * k, wheel + 12 * (steps - 1), 12 * sizeof *wheel);
+        found[steps + (size_t)k] = *at;
+    }
+    const double share = number(r, 0.5);
+    mw_first_lasts(f->m, f->s, mesh, three[0], three[1], share, turn, sense, met, found + steps, numbers(mw_first_lasts_work()));
+    const size_t count = mw_first_along(f->m, f->s, mesh, pinion, wheel, steps, turn, sense, at, found);
+    if (count > steps) fail("more first contacts than angles");
+    calls += 2;
+}
+
 static void first(reader *r, fuzzed *f)
 {
     const mw_model *m = f->m;
@@ -644,6 +663,7 @@ static void first(reader *r, fuzzed *f)
     if (status >= 0 && !(fabs(found->wheel_turn) < HUGE_VAL)) fail("first contact without an angle");
     ended[(status + 8) & 15]++;
     calls++;
+    if (status >= 0) between(r, f, &mesh, pinion, wheel, from->steps, turn, sense, found, work);
     if (status >= 0) along(r, f, &mesh, pinion + 12 * (from->steps - 1), wheel + 12 * (from->steps - 1), turn, sense, found);
 }
 

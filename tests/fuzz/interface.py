@@ -171,8 +171,7 @@ def _search(drive):
         if search is None:
             return None
         table, start = search.flank.table, solved.solutions[0]
-        placed = first_contact._placed(drive, np.linspace(0.0, 0.05, 2))
-        pinion, wheel = (p[:, :3].reshape(-1, 12) for p in placed)
+        pinion, wheel = first_contact._matrices(drive, np.linspace(0.0, 0.05, 2))
         begin = np.concatenate([start[b["unknowns"]] for b in drive.design.description["bodies"][::-1]])
         caught = [search, table, pinion, wheel, np.append(begin, start[drive.design.description["error"]])]
     finally:
