@@ -38,15 +38,18 @@ class Extremes:
     """What is proved of a TCA at N angles where no tangency holds the wheel.
 
     ``bounds`` (N, 2) of the transmission error, rad; NaN elsewhere, and where nothing is shown. ``slacks`` (N,): with
-    the wheel turned back by more than this, mm of arc at the place of contact, and up to half a pitch the bounded
-    flanks have no place in common; ``lines``: a :class:`~meshwright.cycle.certified_line.CertifiedLine` where they
-    touch along one, else None. ``asked`` (N,) of bool: where something was to be shown.
+    the wheel turned back by more than this, mm of arc at the place of contact, and up to ``reach``, rad, the bounded
+    flanks have no place in common; ``parts`` (N,) of the flanks that were looked at; ``lines``: a
+    :class:`~meshwright.cycle.certified_line.CertifiedLine` where they touch along one, else None. ``asked`` (N,) of
+    bool: where something was to be shown.
     """
 
     bounds: np.ndarray
     slacks: np.ndarray
     lines: tuple[CertifiedLine | None, ...]
     asked: np.ndarray
+    parts: np.ndarray
+    reach: float
 
     def plain(self, k):
         """What the certificate of point k of the ``meshwright.tca/1`` schema says of it; {} where nothing was asked."""
@@ -66,8 +69,8 @@ class Extremes:
             "radius": float(np.nextafter(0.5 * (high - low), np.inf)),
             "first_contact": {
                 "outcome": "first", "reason": None, "message": "it is shown",
-                "overlap_below_mm": float(self.slacks[k]), "turned_back_arcsec": None, "overlap_arcsec": None,
-                "point_mm": None, "flanks": {}, "parts": 0, "neighbours": [],
+                "overlap_below_mm": float(self.slacks[k]), "turned_back_arcsec": self.reach / ARCSEC,
+                "overlap_arcsec": None, "point_mm": None, "flanks": {}, "parts": int(self.parts[k]), "neighbours": [],
             },
         }  # fmt: skip
 
@@ -77,7 +80,7 @@ def enclosed_extremes(drive, contacts):
     count = len(contacts.angles)
     bounds, slacks = np.full((count, 2), np.nan), np.full(count, np.nan)
     rows = np.flatnonzero([word in HELD for word in contacts.status])
-    asked, lines = np.isin(np.arange(count), rows), [None] * count
+    asked, lines, parts = np.isin(np.arange(count), rows), [None] * count, np.zeros(count, dtype=int)
     mirror = drive.design.mirror
     search, _ = Search.of(drive, mirror.sign * contacts.angles, contacts.solutions)
     if search is not None and rows.size:
@@ -94,8 +97,9 @@ def enclosed_extremes(drive, contacts):
                 lines[row] = one.line(contacts.lines[row].mirrored(mirror))
             found = one.bounds()
             bounds[row] = found if mirror.sign > 0 else (-found[1], -found[0])
-            slacks[row], left = one.slack * one.radius, left - share + one.left
-    return Extremes(bounds, slacks, tuple(lines), asked)
+            slacks[row], parts[row] = one.slack * one.radius, share - one.left
+            left -= share - one.left
+    return Extremes(bounds, slacks, tuple(lines), asked, parts, REACH * abs(drive.ratio) * drive.pitch())
 
 
 class _Extreme:
@@ -123,7 +127,7 @@ class _Extreme:
 
     def bounds(self):
         """Bounds of the error; NaN where they are not shown."""
-        arcs = TURNED_BACK[self.left < LEAST_EFFORT :]
+        arcs = TURNED_BACK if self.left >= LEAST_EFFORT else TURNED_BACK[1:]
         earliest = next((found for found in map(self._apart_from, arcs) if found is not None), None)
         if earliest is None:
             return np.full(2, np.nan)

@@ -223,7 +223,9 @@ def _ends(ahead, possible, within):
     largest, last = np.argmax(ahead[around]), inside.size + 1
     if largest in (0, last):
         best = np.argmax(ahead[inside]) + 1
-        return ends if abs(best - largest) == 1 else None
+        near = ahead[around][:3] if largest == 0 else ahead[around][:-4:-1]
+        falls = 4.0 * near[1] - 3.0 * near[0] - near[2] < 0.0  # a parabola through them, from outside the window on
+        return ends if falls and abs(best - largest) == 1 else None
     return () if 1 < largest < last - 1 else None
 
 
