@@ -62,8 +62,8 @@ SEARCHES = 2
 RIDGE = object()
 RIDGE_REACH = 4.0
 
-#: Steps in which it is followed, per pitch, until it is not lost on the way.
-RIDGE_STEPS = (24, 96)
+#: Into how many parts a step is divided in which it is lost.
+RIDGE_PARTS = (1, 4)
 
 #: In which steps, in pitches, and how many to either side of the reference angle it is sought.
 RIDGE_SOUGHT = 0.25
@@ -332,7 +332,8 @@ class SearchedFlank:
     (P, nx) of contacts in the middle, or the places from which they are sought, at ``angles`` (P,), right hand;
     ``pointless``: none of them is a contact in a point of both flanks; ``extent``: longest side of a box about the
     flank, mm; ``found``: first contacts by angle, ``ridges``: depths and deepest places of the ridge of the wheel's
-    turn, ``sought``: angles at which it was looked for from start values.
+    turn to which start values lead, by angle, ``passed``: those that were passed on the way from there, by angle and
+    direction.
     """
 
     table: object
@@ -343,7 +344,7 @@ class SearchedFlank:
     extent: float
     found: dict = field(default_factory=dict, repr=False)
     ridges: dict = field(default_factory=dict, repr=False)
-    sought: set = field(default_factory=set, repr=False)
+    passed: dict = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(cls, drive):
@@ -728,33 +729,51 @@ class Search:
 
     def _ridge(self, angle):
         """Depth and place of the ridge at an angle: from the start values there or, where they do not lead to it, from
-        the nearest angle at which they do.
+        the nearest of some fixed angles at which they do, step by step; what was asked before changes nothing.
         """
-        known, sought, step = self.flank.ridges, self.flank.sought, RIDGE_SOUGHT * self.drive.pitch()
-        around = (self.drive.design.reference_angle + k * step for k in range(-RIDGE_LOOKS, RIDGE_LOOKS + 1))
-        for at in (angle, *sorted(around, key=lambda at: abs(at - angle))):
-            if at not in sought and at not in known:
-                sought.add(at)
-                depth, found = self._deepest(at, self._place(start_values(self.drive, [at])[0]))
-                if not math.isnan(depth):
-                    known[at] = depth, found
-            if at in known:
+        step, reference = RIDGE_SOUGHT * self.drive.pitch(), self.drive.design.reference_angle
+        around = (reference + k * step for k in range(-RIDGE_LOOKS, RIDGE_LOOKS + 1))
+        found = self._sought(angle)
+        for at in sorted(around, key=lambda at: abs(at - angle)):
+            if found is None and self._sought(at) is not None:
+                found = self._followed(at, angle)
                 break
-        if angle in known or not known:
-            return known.get(angle, (math.nan, ffi.new("mw_first *", {"limit": (-1, -1)})))
-        near = min(known, key=lambda at: abs(at - angle))
-        depth, found = math.nan, known[near][1]
-        share = abs(angle - near) / self.drive.pitch()
-        for steps in RIDGE_STEPS if share <= RIDGE_REACH else ():
-            depth, found = known[near]
-            for at in np.linspace(near, angle, 1 + math.ceil(share * steps))[1:]:
+        return found or (math.nan, ffi.new("mw_first *", {"limit": (-1, -1)}))
+
+    def _sought(self, angle):
+        """Depth and place of the ridge to which the start values at an angle lead; None if to none."""
+        known = self.flank.ridges
+        if angle not in known:
+            if len(known) > KEPT:
+                known.clear()
+            depth, found = self._deepest(angle, self._place(start_values(self.drive, [angle])[0]))
+            known[angle] = None if math.isnan(depth) else (depth, found)
+        return known[angle]
+
+    def _followed(self, begin, angle):
+        """The same at an angle, followed from one at which start values lead to it; places on the way are kept."""
+        pitch, side = self.drive.pitch(), math.copysign(1.0, angle - begin)
+        if abs(angle - begin) > RIDGE_REACH * pitch:
+            return None
+        steps = int(abs(angle - begin) / pitch * STEPS_PER_PITCH)
+        passed = self.flank.passed.setdefault((begin, side), [self._sought(begin)])
+        places = [begin + side * k * pitch / STEPS_PER_PITCH for k in range(steps + 1)]
+        while len(passed) <= steps and passed[-1] is not None:
+            passed.append(self._stepped(passed[-1], *places[len(passed) - 1 : len(passed) + 1]))
+        last = passed[min(steps, len(passed) - 1)]
+        return last and self._stepped(last, places[steps], angle)
+
+    def _stepped(self, last, begin, end):
+        """The same a step further, in one or, where it is lost on the way, in shorter ones."""
+        for parts in RIDGE_PARTS:
+            depth, found = last
+            for at in np.linspace(begin, end, 1 + parts)[1:]:
                 depth, found = self._deepest(at, found)
                 if math.isnan(depth):
                     break
             else:
-                known[angle] = depth, found
-                break
-        return depth, found
+                return depth, found
+        return None
 
     def _deepest(self, angle, start):
         """Depth and place of ``mw_first_deepest`` from another place at an angle."""
