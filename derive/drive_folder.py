@@ -77,7 +77,7 @@ def _not_compiled(name, headers, said):
     where = f"{file}, line {line}"
     if (headers / file).is_file():
         lines = (headers / file).read_text("utf-8").splitlines()[: int(line)]
-        begun = re.findall(rf"^static [^;=]*\b{name}_(\w+)\(", "\n".join(lines), re.MULTILINE)
+        begun = re.findall(rf"^(?:MW_\w+ )?static [^;=]*\b{name}_(\w+)\(", "\n".join(lines), re.MULTILINE)
         where = f"the function {begun[-1]}, {where}" if begun else where
     return Refused(
         f"{name}: the C that is made of the description does not compile: {where}: {what}; give what is named there "
