@@ -154,6 +154,9 @@ WITH_STIFFNESS = (_json, _numpy, _modelica)
 WRITERS = {".c": _c, ".json": _json, ".csv": _csv, ".npz": _numpy, ".txt": _modelica}
 
 _BASICS = """#include <math.h>
+#ifndef MW_DEVICE
+#define MW_DEVICE
+#endif
 #ifndef MW_MAX_ANGLE
 #define MW_MAX_ANGLE 1e12
 #endif
