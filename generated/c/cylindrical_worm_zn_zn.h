@@ -5882,14 +5882,6 @@ MW_DEVICE static inline double mwi_reduce(double teeth, double reference, double
     }
     return angle;
 }
-MW_BY_TABLE static inline double mwi_reference_of(const mw_model *m, const double *p)
-{
-    return m->reference < 0 ? 0.0 : p[m->reference];
-}
-MW_BY_TABLE static inline double mwi_own_angle(const mw_model *m, const double *p, double phi, double *pair)
-{
-    return mwi_reduce(p[m->teeth], mwi_reference_of(m, p), phi, pair);
-}
 #endif
 
 #ifndef MWI_CONTACT_H
@@ -6021,6 +6013,14 @@ MW_BY_TABLE static inline int mwi_touch(const mw_model *m, const double *x, cons
 
 #ifndef MWI_WARM_H
 #define MWI_WARM_H
+MW_BY_TABLE static inline double mwi_reference_of(const mw_model *m, const double *p)
+{
+    return m->reference < 0 ? 0.0 : p[m->reference];
+}
+MW_BY_TABLE static inline double mwi_own_angle(const mw_model *m, const double *p, double phi, double *pair)
+{
+    return mwi_reduce(p[m->teeth], mwi_reference_of(m, p), phi, pair);
+}
 static const double MWI_FUSED_TOLERANCE = 1e-9;
 static const double MWI_BRANCH_WIDTH = 0.25;
 static const double MWI_BESIDE = 1e-5;

@@ -53,15 +53,4 @@ MW_DEVICE static inline double mwi_reduce(double teeth, double reference, double
     return angle;
 }
 
-/* Where a pair meets in the middle of its flanks. */
-MW_BY_TABLE static inline double mwi_reference_of(const mw_model *m, const double *p)
-{
-    return m->reference < 0 ? 0.0 : p[m->reference];
-}
-
-MW_BY_TABLE static inline double mwi_own_angle(const mw_model *m, const double *p, double phi, double *pair)
-{
-    return mwi_reduce(p[m->teeth], mwi_reference_of(m, p), phi, pair);
-}
-
 #endif

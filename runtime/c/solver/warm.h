@@ -5,6 +5,17 @@
 #include "reduce.h"
 #include "touch.h"
 
+/* Where a pair meets in the middle of its flanks. */
+MW_BY_TABLE static inline double mwi_reference_of(const mw_model *m, const double *p)
+{
+    return m->reference < 0 ? 0.0 : p[m->reference];
+}
+
+MW_BY_TABLE static inline double mwi_own_angle(const mw_model *m, const double *p, double phi, double *pair)
+{
+    return mwi_reduce(p[m->teeth], mwi_reference_of(m, p), phi, pair);
+}
+
 /* Steps are sums over the unknowns in units of their natural size: the next would be round-off. */
 static const double MWI_FUSED_TOLERANCE = 1e-9;
 
