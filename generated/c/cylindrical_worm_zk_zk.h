@@ -7354,6 +7354,25 @@ static const double MW_EQUAL_SPACING = 1e-9;
 #define MW_PREDICT_CUBIC(x0, x1, x2, x3) (4.0 * ((x0) + (x2)) - (6.0 * (x1) + (x3)))
 static const double MW_FUSED_TOLERANCE = 1e-8;
 static const double MW_STEP_LIMIT = 0.7;
+static const double MW_LANE_STRIDE = 0.05;
+enum { MW_MOST_BETWEEN = 512 };
+MW_DEVICE static inline int mwi_parts_of(const double *phi, int n)
+{
+    double widest = 0.0;
+    for (int i = 1; i < n; i++) {
+        const double apart = phi[i] < phi[i - 1] ? phi[i - 1] - phi[i] : phi[i] - phi[i - 1];
+        if (apart > widest) widest = apart;
+    }
+    const double parts = widest / MW_LANE_STRIDE;
+    if (!(parts < MW_MOST_BETWEEN)) return 1;
+    const int whole = (int)parts + ((double)(int)parts < parts);
+    return whole > 1 && whole * (n - 1) < MW_MOST_BETWEEN ? whole : 1;
+}
+MW_DEVICE static inline double mwi_angle_between(const double *phi, int parts, int k)
+{
+    const int at = k / parts, part = k % parts;
+    return part ? phi[at] + (phi[at + 1] - phi[at]) * (double)part / (double)parts : phi[at];
+}
 #endif
 
 #if !defined(MWI_NEWTON_H) && !defined(MW_DEVICE_ONLY)

@@ -57,15 +57,10 @@ typedef struct room {
 /* A vector that crosses a cache line costs twice: lanes begin at multiples of ALIGN numbers. */
 enum { ALIGN = 8, PARTS = 5, KEPT = MW_HISTORY + MW_LANE_BLOCK };
 
-/* Angles that lie further apart than a lane follows a contact, rad, are reached over others between: where there are no more
- * than so many altogether. */
-static const double STRIDE = 0.05;
-enum { MOST_BETWEEN = 512 };
-
 size_t mw_lanes_work(const mw_lane_set *set, const mw_model *m, size_t n)
 {
     const size_t lanes = (size_t)set->lanes, nx = (size_t)m->nx, ns = (size_t)m->ns, np = (size_t)m->np;
-    return lanes * (ns + np + nx + n + MOST_BETWEEN + (KEPT + MOST_BETWEEN) * nx) + ns + np + PARTS * ALIGN;
+    return lanes * (ns + np + nx + n + MW_MOST_BETWEEN + (KEPT + MW_MOST_BETWEEN) * nx) + ns + np + PARTS * ALIGN;
 }
 
 static double *take(double **free, size_t count)
@@ -83,7 +78,7 @@ static room divide(const mw_lane_set *set, const mw_model *m, size_t n, double *
     r.s = take(&work, lanes * ns);
     r.p = take(&work, lanes * np);
     r.start = take(&work, lanes * nx);
-    r.phi = take(&work, lanes * (n > MOST_BETWEEN ? n : MOST_BETWEEN));
+    r.phi = take(&work, lanes * (n > MW_MOST_BETWEEN ? n : MW_MOST_BETWEEN));
     r.x = take(&work, lanes * KEPT * nx);
     r.state = work;
     r.work = r.state + ns;
@@ -144,15 +139,6 @@ static size_t converged(size_t n, int *status)
     return n;
 }
 
-/* Into how many parts the way from each angle to the next is divided. */
-static size_t parts_of(const double *phi, size_t n)
-{
-    double widest = 0.0;
-    for (size_t i = 1; i < n; i++) widest = fmax(widest, fabs(phi[i] - phi[i - 1]));
-    const double parts = ceil(widest / STRIDE);
-    return parts > 1.0 && parts * (double)(n - 1) < MOST_BETWEEN ? (size_t)parts : 1;
-}
-
 size_t mw_trace_designs(const mw_lane_set *set, const mw_model *m, const double *p, size_t designs, const double *phi,
                         size_t n, const double *start, double *work, double *x, int *status)
 {
@@ -163,12 +149,11 @@ size_t mw_trace_designs(const mw_lane_set *set, const mw_model *m, const double 
     size_t solved[MW_MAX_LANES], succeeded = 0;
     mw_lane_row rows[MW_MAX_LANES];
     if (!mwi_usable(m) || !in_lanes(k, phi, n)) return all_again(m, p, designs, phi, n, &r, x, status);
-    const size_t parts = parts_of(phi, n), points = (n - 1) * parts + 1;
+    const int parts = n < MW_MOST_BETWEEN ? mwi_parts_of(phi, (int)n) : 1;
+    const size_t points = (n - 1) * (size_t)parts + 1;
     for (size_t l = 0; l < lanes; l++) {
-        for (size_t i = 0; i < points; i++) {
-            const size_t at = i / parts, part = i % parts;
-            r.phi[i * lanes + l] = part ? phi[at] + (phi[at + 1] - phi[at]) * (double)part / (double)parts : phi[at];
-        }
+        if (parts == 1) spread(lanes, l, phi, n, r.phi);
+        else for (size_t i = 0; i < points; i++) r.phi[i * lanes + l] = mwi_angle_between(phi, parts, (int)i);
         spread(lanes, l, start, nx, r.start);
     }
     for (size_t first = 0; first < designs; first += lanes) {
@@ -184,7 +169,7 @@ size_t mw_trace_designs(const mw_lane_set *set, const mw_model *m, const double 
         for (size_t l = 0, at = first * n; l < used; l++, at += n) {
             const double *own = p + (first + l) * np;
             for (size_t i = 0; parts > 1 && i < n; i++)
-                memcpy(x + (at + i) * nx, rows[l].x + i * parts * nx, nx * sizeof *x);
+                memcpy(x + (at + i) * nx, rows[l].x + i * (size_t)parts * nx, nx * sizeof *x);
             const int followed = valid[l] > 0.0 && solved[l] == points && m->setup(own, r.state) == 0 &&
                                  touches(m, phi[n - 1], x + (at + n - 1) * nx, &r);
             succeeded += followed ? converged(n, status + at) : again(m, own, phi, n, &r, x + at * nx, status + at);

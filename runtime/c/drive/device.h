@@ -8,30 +8,46 @@
 
 #define MW_NX MW_OF(_NX)
 
-/* Whether n angles are equally spaced, as of lane_follow.h. */
-MW_DEVICE static int equally_spaced(const double *phi, int n)
+/* The angles of a trace: those that are asked for, and so many parts from each to the next. */
+typedef struct trace {
+    const double *phi;
+    int parts, count, uniform;
+} trace;
+
+MW_DEVICE static double angle_of(const trace *t, int k)
 {
+    return mwi_angle_between(t->phi, t->parts, k);
+}
+
+/* uniform: whether they are equally spaced, as of lane_follow.h. */
+MW_DEVICE static trace trace_of(const double *phi, int n)
+{
+    trace t = { phi, n < MW_MOST_BETWEEN ? mwi_parts_of(phi, n) : 1, 0, 0 };
     double worst = 0.0;
-    for (int k = 1; k + 1 < n; k++) {
-        const double excess = mwi_abs(phi[k + 1] - 2.0 * phi[k] + phi[k - 1]) - MW_EQUAL_SPACING * mwi_abs(phi[1] - phi[0]);
+    t.count = (n - 1) * t.parts + 1;
+    for (int k = 1; k + 1 < t.count; k++) {
+        const double bend = mwi_abs(angle_of(&t, k + 1) - 2.0 * angle_of(&t, k) + angle_of(&t, k - 1));
+        const double excess = bend - MW_EQUAL_SPACING * mwi_abs(angle_of(&t, 1) - angle_of(&t, 0));
         worst = excess > worst ? excess : worst;
     }
-    return worst <= 0.0;
+    t.uniform = worst <= 0.0;
+    return t;
 }
 
 /* Point k from those before it: at[0] is the newest. */
-MW_DEVICE static void predict(const double *phi, int k, int uniform, double at[MW_HISTORY][MW_NX], double *x)
+MW_DEVICE static void predict(const trace *t, int k, double at[MW_HISTORY][MW_NX], double *x)
 {
-    double weight[MW_HISTORY];
+    double weight[MW_HISTORY], phi[MW_HISTORY + 1];
     const int count = k < MW_HISTORY ? k : MW_HISTORY;
-    if (uniform && k >= MW_HISTORY) {
+    if (t->uniform && k >= MW_HISTORY) {
         for (int j = 0; j < MW_NX; j++) x[j] = MW_PREDICT_CUBIC(at[0][j], at[1][j], at[2][j], at[3][j]);
         return;
     }
+    for (int j = 0; j <= count; j++) phi[j] = angle_of(t, k - j);
     for (int i = 0; i < count; i++) {
         weight[i] = 1.0;
         for (int j = 0; j < count; j++)
-            if (j != i) weight[i] *= (phi[k] - phi[k - 1 - j]) / (phi[k - 1 - i] - phi[k - 1 - j]);
+            if (j != i) weight[i] *= (phi[0] - phi[1 + j]) / (phi[1 + i] - phi[1 + j]);
     }
     for (int j = 0; j < MW_NX; j++) {
         x[j] = 0.0;
@@ -70,18 +86,21 @@ MW_DEVICE static int sample(const double *p, const double *phi, int n, const dou
                             double *error, double *points)
 {
     double s[MW_OF(_NS)], o[MW_OF(_NO)], at[MW_HISTORY][MW_NX], x[MW_NX];
-    const int uniform = equally_spaced(phi, n);
+    const trace t = trace_of(phi, n);
     if (MW_OF(_setup)(p, s)) return 0;
-    for (int k = 0; k < n; k++) {
+    for (int k = 0; k < t.count; k++) {
+        const double here = angle_of(&t, k);
         if (k == 0) mwi_copy(x, start, MW_NX);
-        else if (k == 1) mwi_along_tangent(&MW_OF(_model), s, phi[0], at[0], phi[1], x);
-        else predict(phi, k, uniform, at, x);
-        MW_OF(_set_phi)(s, phi[k]);
+        else if (k == 1) mwi_along_tangent(&MW_OF(_model), s, phi[0], at[0], here, x);
+        else predict(&t, k, at, x);
+        MW_OF(_set_phi)(s, here);
         if (!settle(s, x)) return 0;
         for (int i = MW_HISTORY - 1; i > 0; i--) mwi_copy(at[i], at[i - 1], MW_NX);
         mwi_copy(at[0], x, MW_NX);
-        status[k] = look(s, x, o, points + 3 * k, flags + k);
-        error[k] = status[k] < 0 ? NAN : x[MW_OF(_model).error];
+        if (k % t.parts) continue;
+        const int own = k / t.parts;
+        status[own] = look(s, x, o, points + 3 * own, flags + own);
+        error[own] = status[own] < 0 ? NAN : x[MW_OF(_model).error];
     }
     return mwi_touch(&MW_OF(_model), x, o) >= 0;
 }

@@ -23,7 +23,8 @@ from meshwright.base.errors import DesignError, UsageError
 from meshwright.base.files import write_text
 from meshwright.commands import options as common
 from meshwright.contact.flags import not_first
-from meshwright.contact.results import ON_FLANKS, impossible
+from meshwright.contact.results import ON_EDGES, ON_FLANKS, impossible
+from meshwright.cycle.first_contact import Search
 from meshwright.design import description, schema
 from meshwright.design import design as designs
 from meshwright.design.outline import first_design
@@ -51,6 +52,10 @@ def add_arguments(parser):
     plain = parser.format_help
     parser.format_help = lambda: plain() + _offered()
 
+
+#: Flanks that part by no more along what would be their line of contact, mm, are as good as in line: no drawing has a
+#: tolerance so small.
+LEVEL = 1e-4
 
 #: What the names of options begin with that are sizes of a drawing, and the tables of these, the first before others.
 SIZE = "size:"
@@ -289,13 +294,25 @@ def _contact(drive):
     """Whether the flanks touch first over the pitch about the middle, and what they do there."""
     result = drive.tca(drive.about_the_middle(np.linspace(-0.5, 0.5, 5)))
     result = not_first(result, drive.first_contact(result.angles, result))
+    touching = (*ON_FLANKS, *ON_EDGES) if _out_of_line(drive, result) <= LEVEL else ON_FLANKS
     for k, (status, flags) in enumerate(zip(result.status, result.flags, strict=True)):
-        word = next((flag for flag in flags if impossible(flag)), None if status in ON_FLANKS else status)
+        word = next((flag for flag in flags if impossible(flag)), None if status in touching else status)
         if word:
             angle = np.degrees(result.angles[k])
             return False, f"careful: {word} at {angle:.4g} degrees: change a size first (`meshwright explain {word}`)"
-    along = " along a line" if "line_contact" in result.status else ""
+    along = " along a line" if {"line_contact", *ON_EDGES}.intersection(result.status) else ""
     return True, f"looked at over one pitch: the flanks touch{along}, and nothing else before them"
+
+
+def _out_of_line(drive, result):
+    """The most by which flanks that touch on edges part along what would be their line of contact, mm; infinity where
+    none do, or they touch in points.
+    """
+    search, _ = Search.of(drive) if set(ON_EDGES).intersection(result.status) else (None, None)
+    if search is None or not search.flank.pointless:
+        return np.inf
+    own = drive.design.mirror.sign * result.angles
+    return np.nanmax([search.rise(*at) for at in zip(own, search.at(own), strict=True)])
 
 
 def _family(name):

@@ -19,6 +19,7 @@ from meshwright.commands.progress import progress
 from meshwright.contact.certificate import Shown, degrees_of
 from meshwright.contact.flags import not_first
 from meshwright.contact.friction import efficiency
+from meshwright.contact.results import ON_EDGES
 from meshwright.contact.velocities import velocities
 from meshwright.cycle.first_contact import Search
 
@@ -33,9 +34,6 @@ RESOLVED = 1e-4
 
 #: A bound on that overlap above this, mm, says nothing: tooth depths are of its order.
 MEANINGFUL = 1.0
-
-#: Status words of contacts that no tangency is.
-ON_EDGES = ("edge_contact", "corner_contact")
 
 #: Contact points nearer than this are one, mm.
 SAME_POINT = 1e-5

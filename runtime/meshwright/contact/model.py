@@ -38,6 +38,11 @@ class DriveModel(Protocol):
         """Pinion angle from one tooth pair to the next."""
         ...
 
+    @property
+    def past_the_tips(self) -> bool:
+        """Whether the teeth do not reach each other at any angle."""
+        ...
+
     def about_the_middle(self, pitches: ArrayLike) -> np.ndarray:
         """Pinion angles so many pitches from the one to which relative errors refer."""
         ...

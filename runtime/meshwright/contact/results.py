@@ -19,6 +19,9 @@ TOUCHING = ("converged", "line_contact", "edge_contact", "corner_contact")
 #: Those at which they touch with more than an edge.
 ON_FLANKS = ("converged", "line_contact")
 
+#: Those of contacts that no tangency is.
+ON_EDGES = ("edge_contact", "corner_contact")
+
 #: Flag of points beyond the tip of a member.
 OFF_TIP = "off_tip"
 
