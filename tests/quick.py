@@ -4,6 +4,14 @@ import os
 
 import pytest
 
+#: One packaged design of each kind of blank; every other one is looked at by the longer validation.
+ONE_OF_A_KIND = (
+    "bevel-face-hobbed", "bevel-formate", "bevel-hypoid", "crossed-helical-17-23", "face-worm-cylindrical-concave",
+    "helical-crowned", "plain-zc", "plain-zi", "plain-zk", "plain-zn", "recess-action-full",
+    "spherical-table-2-2-convex-14-5", "spherical-table-4-4-concave", "spherical-table-5-2-spur",
+    "spur-profile-shift", "zk-zn-60",
+)  # fmt: skip
+
 
 def quick(values, *now):
     """The values as parameters of a test; all but those of ``now`` are marked ``validate``."""

@@ -215,6 +215,7 @@ def test_a_pair_is_started_in_the_words_of_its_drawing(tmp_path, capsys, words):
     assert drive.contact_ratio().contact_ratio > 1.2
 
 
+@pytest.mark.validate
 def test_below_contact_ratio_1_the_size_to_change_is_named(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     words = "new bevel --m 4 --z 6:11 --depth-taper standard"

@@ -19,7 +19,7 @@ from tests.independent.spherical import Gear, Pair
 from tests.independent.worm import WormDrive
 from tests.lanes import available
 from tests.published import published_rows
-from tests.quick import quick
+from tests.quick import ONE_OF_A_KIND, quick
 from tests.worm.designs import packaged, plain
 
 DIGITS = 60
@@ -105,7 +105,7 @@ def test_an_enclosed_spherical_contact_holds_every_unknown_to_sixty_digits():
             assert entry["radius"] < 1e-18
 
 
-@pytest.mark.parametrize("name", packaged_names())
+@pytest.mark.parametrize("name", quick(packaged_names(), *ONE_OF_A_KIND))
 def test_every_packaged_design_is_enclosed_and_its_contact_certain_or_a_line(name):
     drive = Drive.load(name)
     assert drive.enclosed.failed is None

@@ -226,7 +226,7 @@ def test_a_first_worm_pair_stands_at_the_centre_distance_asked_for(tmp_path, mon
     assert design.sizes["wheel_pitch_radius_mm"] == pytest.approx(80.0, abs=1e-12)
 
 
-@pytest.mark.parametrize(("teeth", "undercut"), [(17, True), (18, False)])
+@pytest.mark.parametrize(("teeth", "undercut"), quick([(17, True), (18, False)], (18, False)))
 def test_new_writes_no_undercut_gear_unless_forced(tmp_path, monkeypatch, capsys, teeth, undercut):
     """A spur gear without profile shift whose rack's line ends a module below the pitch line: from 2/sin²20° = 17.1."""
     monkeypatch.chdir(tmp_path)
@@ -240,6 +240,7 @@ def test_new_writes_no_undercut_gear_unless_forced(tmp_path, monkeypatch, capsys
         assert "the tool undercuts the flank of the pinion" in capsys.readouterr().out
 
 
+@pytest.mark.validate
 def test_a_size_of_ones_own_that_nothing_follows_is_said(tmp_path, monkeypatch, capsys):
     """The offset of a face worm drive is one of the proportions that its other sizes do not follow."""
     monkeypatch.chdir(tmp_path)

@@ -32,6 +32,7 @@ VARIED = {
     "bevel-formate": ("", 0.0, 0.0),
     "bevel-face-hobbed": ("", 0.0, 0.0),
 }
+NOW = ("recess-action-full", "spherical-table-2-3", "crossed-helical-17-23", "bevel-formate")
 
 
 def _random(name, generator):
@@ -59,7 +60,7 @@ def _alone(drive, angle):
     return library().mw_solve(m, pointer(p), angle, pointer(s), pointer(work), pointer(x), info), x
 
 
-@pytest.mark.parametrize("name", quick(VARIED, *VARIED.keys() - {"bevel-face-hobbed"}))
+@pytest.mark.parametrize("name", quick(VARIED, *NOW))
 def test_every_path_of_evaluation_finds_the_same_contact(name):
     generator = np.random.default_rng(len(name))
     for _ in range(4):

@@ -72,6 +72,7 @@ def test_a_statement_that_an_edit_makes_false_is_open_and_the_c_is_written(tree,
         assert f"open      {name:<28} helicoids/zn-straight: false: at " in outcome.said
 
 
+@pytest.mark.validate
 def test_a_statement_of_one_body_is_open_where_the_tool_makes_another_surface_of_the_other(tree, tmp_path):
     """An edge that is straight on the worm, of which the statements are proved, and crowned on the hob."""
     page = tree / "derive" / "tools" / "straight_blade.py"

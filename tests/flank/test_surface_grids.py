@@ -13,7 +13,7 @@ from meshwright.cli import main
 from meshwright.flank import lines
 from meshwright.flank.exports import stl, vtu
 from tests.flank.step_files import valid_shape
-from tests.quick import some
+from tests.quick import ONE_OF_A_KIND, some
 
 
 def grid(drive, member, shape, region="flank"):
@@ -196,14 +196,7 @@ def _area_of_faces(content):
     return properties.Mass()
 
 
-#: One design of each kind of blank; every other one is looked at by the longer validation.
 PACKAGED = sorted(path.name[:-5] for path in (files("meshwright") / "designs").iterdir())
-ONE_OF_A_KIND = (
-    "bevel-face-hobbed", "bevel-formate", "bevel-hypoid", "crossed-helical-17-23", "face-worm-cylindrical-concave",
-    "helical-crowned", "plain-zc", "plain-zi", "plain-zk", "plain-zn", "recess-action-full",
-    "spherical-table-2-2-convex-14-5", "spherical-table-4-4-concave", "spherical-table-5-2-spur",
-    "spur-profile-shift", "zk-zn-60",
-)  # fmt: skip
 SOME = ("plain-za", "zk-zn-90", "face-worm-conical-convex", "spherical-table-2-3")
 
 

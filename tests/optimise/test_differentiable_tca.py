@@ -10,6 +10,7 @@ from meshwright.base.errors import UsageError
 from meshwright.design import design
 from meshwright.sensitivity import sensitivity
 from tests.independent.recess_action import Paper
+from tests.quick import ONE_OF_A_KIND, quick
 
 FREE = ("design.hob_pitch_radius_mm", "design.pitch_line_shift_mm", "misalignment.center_distance_mm")
 POINT = (20.3, 3.7, 0.05)
@@ -35,7 +36,7 @@ def sensitivities():
     return np.array(error).ravel(), np.array(axes)
 
 
-@pytest.mark.parametrize("name", design.packaged_names())
+@pytest.mark.parametrize("name", quick(design.packaged_names(), *ONE_OF_A_KIND))
 def test_contact_and_curvatures_are_those_of_the_c_solver(name):
     drive = Drive.load(name)
     angles = np.linspace(-0.2, 0.3, 4) * drive.pitch()
