@@ -5106,7 +5106,7 @@ MW_DEVICE static inline int mwi_parts_of(const double *phi, int n)
         if (apart > widest) widest = apart;
     }
     const double parts = widest / MW_LANE_STRIDE;
-    if (!(parts < MW_MOST_BETWEEN)) return 1;
+    if (!(parts < (double)MW_MOST_BETWEEN)) return 1;
     const int whole = (int)parts + ((double)(int)parts < parts);
     return whole > 1 && whole * (n - 1) < MW_MOST_BETWEEN ? whole : 1;
 }

@@ -78,8 +78,8 @@ def worms(draw, module):
     words += draw.choice([["--m", module], ["--axial-pitch", math.pi * module]])
     words += draw.choice([["--worm-diameter-quotient", quotient], ["--worm-pitch-diameter", quotient * module]])
     words += draw.choice([[], ["--wheel-profile-shift-coefficient", draw.uniform(-0.3, 0.3)]])
-    equal = ["--hob-pitch-radius", quotient * module / 2]
-    return words + draw.choice([[], equal, [*equal, "--normal-backlash", 0.02 * module]])
+    equal = ["--hob-pitch-radius", quotient * module / 2, "--normal-backlash", 0.02 * module]
+    return words + draw.choice([[], equal])
 
 
 def spheres(draw, module):

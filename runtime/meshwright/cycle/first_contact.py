@@ -702,7 +702,7 @@ class Search:
         """A :class:`TouchingLine` of both flanks, right hand, then the same by points at these shares of its steps."""
         yield line
         for share in shares:
-            at = ffi.addressof(line.middle)
+            at = line.middle
             yield self._of_places(line.angle, self._curve(line.angle, at, 0, -1, share * STEP, math.inf, POINTS), True)
 
     def rise(self, angle, found):
