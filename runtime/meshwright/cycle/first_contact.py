@@ -40,8 +40,11 @@ ANGLES, PITCHES, BEYOND = 9, 0.5, 4.0
 STARTS = (0, 1, 2, 4, 8, 16, 32)
 
 #: Between two angles what leads at them and at one between is followed, not searched for, where that is shown to lead:
-#: over this share of a pitch at most, and where there are more than so many angles between.
-STRETCH, FEWEST_BETWEEN = 0.125, 6
+#: over this share of a pitch at most.
+STRETCH = 0.125
+
+#: And where there are more than so many angles between.
+FEWEST_BETWEEN = 6
 
 #: First contacts that are kept of a drive: more are those of long ranges, which nobody asks for twice.
 KEPT = 20_000
