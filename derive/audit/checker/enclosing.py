@@ -14,6 +14,9 @@ from .refusal import require
 from .straight_line import Function, Header, body_of, literal_of, read_body
 from .tables import PI_FINE, SMALLEST
 
+#: The radius of a constant of two doubles is no larger part of it.
+FINEST = Fraction(1, 2**100)
+
 #: A call of the arithmetic, and what it stands for.
 CALLS = {
     "add": "{0} + {1}",
@@ -29,21 +32,27 @@ CALLS = {
 CALLED = re.compile(
     r"const mw_(?:ball|wide) (\w+) = (?:mwc_of_wide\((?=mwc_wide\())?mwc_(?:wide_)?(\w+)\(([^()]*)\)\)?;"
 )
-READ = re.compile(r"const mw_(?:ball|wide) (\w+) = (?:MWC_(?:SHARED|OWN)\((\w+), (\d+)\)|(p)\[(\d+)\]);")
+READ = re.compile(
+    r"const mw_(?:ball|wide) (\w+) = (?:MWC_(?:SHARED\((?=s)|OWN\((?=t|phi))(\w+), (\d+)\)|(p)\[(\d+)\]);"
+)
 UNKNOWN = re.compile(r"const mw_ball (\w+) = mwc_make\(x\[(\d+) \* MW_LANES \+ l\], (?:d\[\2\]|0\.0)\);")
 TURNED = re.compile(r"const mwc_turn (turn_\w+) = mwc_turned\((?:mwc_make\()?(\w+)(?:, 0\.0\))?\);")
 HALVES = re.compile(r"const (?:mw_ball|double) (\w+) = (turn_\w+)\.(sine|cosine)(?:\.mid)?(?:, (\w+) = \2\.cosine)?;")
 SINES = re.compile(r"mwc_wide_sincos\((\w+), &(\w+), &(\w+)\);")
-KEPT = re.compile(r"MWC_KEEP\((\w), (\d+), (\w+)\);|mwc_put\((s), (\d+), mwc_of_wide\((\w+)\)\);")
+KEPT = re.compile(r"MWC_KEEP\((\w+), (\d+), (\w+)\);|mwc_put\((s), (\d+), mwc_of_wide\((\w+)\)\);")
 SILENT = re.compile(
     r"\(void\)\w;|MWC_EACH {|}|mw_wide \w+, \w+;|s\[\d+\] = mwc_arithmetic\(\) .*|return s\[\d+\] > 0\.0;|"
 )
 
+#: All of a function, and the sizes of a box with which the proof of a contact begins.
+WHOLE = re.compile(r"(.*)", re.DOTALL)
+SIZES = re.compile(r"for \(int l = 0; l < 1; l\+\+\) {\n(.*)", re.DOTALL)
 
-def plain(text: str, name: str) -> Function:
-    """A function of balls as the straight-line function of their middles."""
+
+def plain(text: str, name: str, part: re.Pattern = WHOLE) -> Function:
+    """A function of balls, or one part of it, as the straight-line function of their middles."""
     lines, sines, numbers = [], {}, {}
-    for line in map(str.strip, body_of(text, name).splitlines()):
+    for line in map(str.strip, part.search(body_of(text, name))[1].splitlines()):
         if found := UNKNOWN.fullmatch(line):
             lines.append(f"const double {found[1]} = x[{found[2]}];")
         elif found := CALLED.fullmatch(line):
@@ -76,9 +85,9 @@ def plain(text: str, name: str) -> Function:
         else:
             require(SILENT.fullmatch(line), f"{name}: not a statement that is foreseen: {line}")
     made = Function(name, read_body("\n".join(lines)), {})
-    for letter in "RJst":
-        places = [key for key in made.definitions if key.startswith(f"{letter}[")]
-        require(places == [f"{letter}[{k}]" for k in range(len(places))], f"{name}: {letter} is not written in a row")
+    for array in ("R", "J", "s", "t", "sizes"):
+        places = [key for key in made.definitions if key.startswith(f"{array}[")]
+        require(places == [f"{array}[{k}]" for k in range(len(places))], f"{name}: {array} is not written in a row")
     return made
 
 
@@ -90,19 +99,35 @@ def constant_of(call: str, words: list[str]) -> str:
     *numbers, radius = (Fraction(float(word)) for word in words)
     apart = abs(sum(numbers) - (exact * PI_FINE if angle else exact))
     require(apart <= radius + SMALLEST, f"the constant {words[0]} is not within its radius")
+    require(radius <= sum(map(abs, numbers)) * FINEST, f"the radius of {words[0]} is larger than it must be")
     return f"({words[0]})"
 
 
 def check_enclosed(header: Header, text: str, prefix: str, rng: Random) -> None:
-    """Residual and Jacobian over a box, from the design on, have the middles of the drive's own."""
+    """State, sizes, residual and Jacobian over a box, from the design on, have the middles of the drive's own."""
     own = machine(header, "eval", rng)
     setup = Machine(own.inputs, plain(text, f"{prefix}_certify_setup"), None, own.circle)
     instant = Machine(own.inputs, plain(text, f"{prefix}_enclose_instant"), setup, own.circle)
     found = Machine(own.inputs, plain(text, f"{prefix}_enclose"), instant, own.circle)
+    written = [(setup, f"s[{k}]") for k in range(number_of(setup, "s"))]
+    written += [(instant, f"t[{k}]") for k in range(number_of(instant, "t"))]
+    for k, (of, key) in enumerate(written):
+        require(of.value(key).value == own.value(f"s[{k}]").value, f"certify: {key} is not that of the drive's state")
+    scale = Machine(own.inputs, header.functions["scale"], own.earlier, own.circle)
+    sizes = Machine(own.inputs, plain(text, f"{prefix}_certify", SIZES), instant, own.circle)
+    require(number_of(sizes, "sizes") == number_of(scale, "new x"), "certify: other sizes than the drive's")
+    for k in range(number_of(scale, "new x")):
+        same = sizes.value(f"sizes[{k}]").value == scale.value(f"new x[{k}]").value
+        require(same, f"certify: another size of x[{k}]")
     for key in own.function.definitions:
         if key[:2] in ("R[", "J["):
             require(key in found.function.definitions, f"enclose: no {key}")
             require(found.value(key).value == own.value(key).value, f"enclose: {key} is not that of the equations")
+
+
+def number_of(of: Machine, letter: str) -> int:
+    """How many numbers a function writes to an array."""
+    return sum(key.startswith(f"{letter}[") for key in of.function.definitions)
 
 
 MIDDLE = re.compile(r"const double m_(\w+) = (.+);")

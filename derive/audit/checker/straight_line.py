@@ -105,7 +105,7 @@ def read_header(text: str, lanes: str = "", tangents: str = "") -> Header:
     """The straight-line functions of a header, with the texts of its lanes and of its tangents."""
     prefix, text = re.search(r"static inline int (\w+)_setup\(", text)[1], numbered(text)
     wanted = (
-        rf"{prefix}_(setup|set_phi|eval|by_anchor|step|along|start_eval|observe|(?:curvature_)?(?:flank|fillet)_\w+)"
+        rf"{prefix}_(setup|set_phi|scale|eval|by_anchor|step|along|start_eval|observe|(?:curvature_)?(?:flank|fillet)_\w+)"
     )
     found = {}
     pattern = rf"((?:/\*(?:[^*]|\*(?!/))*\*/\s)*)(?:MW_DEVICE )?static inline \w+ {wanted}\([^)]*\)\n{{\n(.*?)\n}}"
