@@ -19,6 +19,7 @@ from scipy.spatial import KDTree
 
 from meshwright.fe.cells import Cells
 from meshwright.fe.compliance import ToothCompliance
+from meshwright.fe.edge_zone import EdgeZone
 from meshwright.fe.gap import Bools, ContactGrid, ContactPlane
 from meshwright.fe.gate import LARGEST_ROTATION
 from meshwright.fe.hertz import HertzContact, line_contact
@@ -77,15 +78,20 @@ class LoadedPair:
     apart: float
     hertz: HertzContact | None
 
+    @cached_property
+    def edge_zone(self) -> EdgeZone:
+        """What presses beside sharp edges of the flanks, and the peak of the free contact."""
+        return EdgeZone.of(self.grid, self.pressures)
+
     @property
     def peak_pressure(self) -> float:
-        """Largest cell pressure in MPa."""
-        return float(self.pressures.max())
+        """Largest pressure in MPa of the free contact, away from sharp edges of the flanks."""
+        return self.edge_zone.peak
 
     @property
     def peaks_at_edge(self) -> bool:
-        """Whether the largest pressure is at an edge of a flank."""
-        return self.force > 0.0 and bool(self.grid.at_edges[np.argmax(self.pressures)])
+        """Whether pressure is higher than that beside a sharp edge of a flank."""
+        return bool(self.pressures.max() > self.peak_pressure)
 
     @property
     def cut_off(self) -> bool:
@@ -95,7 +101,7 @@ class LoadedPair:
     @property
     def edges(self) -> tuple[str, ...]:
         """The edges that do, such as "tip of the wheel"."""
-        return tuple(name for name, cells in self.grid.beyond.items() if np.any(self.pressures[cells] > 0.0))
+        return tuple(name for name, cells in self.grid.beyond.items() if np.any(cells & (self.pressures > 0.0)))
 
     @property
     def line(self) -> Floats:
@@ -268,7 +274,7 @@ class _Solution:
     def settled(self, before: _Solution) -> bool:
         """Whether nothing is left that finer cells than ``before`` change by much.
 
-        Where pressure peaks at an edge of a flank it does so the more the finer the cells; forces hold.
+        Forces hold everywhere; peaks do of pairs that carry much, unless that is beside a sharp edge.
         """
         if any(before.idle(place) != self.idle(place) for place in {*before.places, *self.places}):
             return False
@@ -277,15 +283,17 @@ class _Solution:
         least = _LEAST_SHARE * self.forces.sum()
         if np.any(np.abs(self.forces - before.forces) > _SETTLED * np.maximum(self.forces, least)):
             return False
-        (old, old_edges), (new, new_edges) = before.peaks, self.peaks
-        return bool(np.all((np.abs(new - old) < _SETTLED * new.max()) | (old_edges & new_edges)))
+        told = [
+            (new.peak, abs(new.peak - old.peak))
+            for force, new, old in zip(self.forces, self.edge_zones, before.edge_zones, strict=True)
+            if force > least and not (new.holds and old.holds)
+        ]
+        return all(change < _SETTLED * max(told)[0] for _, change in told)
 
-    @property
-    def peaks(self) -> tuple[Floats, Bools]:
-        """The largest pressure in MPa of each pair, and whether it is at an edge of a flank."""
-        at = [int(np.argmax(p)) for p in self.pressures]
-        peaks = np.array([p[k] for p, k in zip(self.pressures, at, strict=True)])
-        return peaks, np.array([grid.at_edges[k] for grid, k in zip(self.grids, at, strict=True)])
+    @cached_property
+    def edge_zones(self) -> tuple[EdgeZone, ...]:
+        """What presses beside sharp edges of each pair, and the peak away from them."""
+        return tuple(EdgeZone.of(grid, p) for grid, p in zip(self.grids, self.pressures, strict=True))
 
     def impossible(self, member: Member, load: Load) -> str:
         """What no load on these flanks could give, empty where there is nothing of the kind."""
