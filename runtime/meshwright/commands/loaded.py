@@ -225,6 +225,7 @@ def _pair(pair, total):
         "peak_pressure_mpa": pair.peak_pressure,
         "cut_off_by": list(pair.edges) or (["edge"] if pair.cut_off else []),
         "peak_at_edge": pair.peaks_at_edge,
+        "carried_by_edge": zone.holds,
         "edge_zone_mm": zone.depth and dict(zip(("along", "across"), zone.depth, strict=True)),
         "edge_loads": [
             {

@@ -164,6 +164,7 @@ QUANTITIES = {
     "contact, a quarter of its length and width away, or of the half of the force that is furthest away",
     "peak_at_edge": "pressure is higher beside a sharp edge of a flank than the peak of the free contact: there it "
     "grows without bound as cells get finer; force and share hold",
+    "carried_by_edge": "a sharp edge carries half of a pair's force or more: its peak of pressure is as sharp as that",
     "edge_zone": "how far from sharp edges the peak of pressure is taken, along and across the contact",
     "edge_loads": "force, length of the edge and mean pressure beside each sharp edge that presses, to about 5 %",
     "rotation_not_small": "of loaded contact: the torque turns the member too far for linear elasticity",

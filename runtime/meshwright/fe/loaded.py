@@ -61,6 +61,8 @@ _TOUCHING = 0.5
 _TEETH_SOFTER = 2.0
 # Peaks below this part of the least that lines can carry the load with are false.
 _POSSIBLE = 0.98
+# Flanks that touch first overlap by less than this, mm.
+_NO_OVERLAP = 0.01
 # Moments of pressures and the torque differ by less than this part.
 _EQUILIBRIUM = 1e-3
 
@@ -302,6 +304,12 @@ class _Solution:
         )
         if not abs(moment / load.torque - 1.0) < _EQUILIBRIUM:
             return f"pressures have a moment of {moment / 1000.0:.5g} N m, not {load.torque / 1000.0:.5g} N m"
+        for place, grid in zip(self.places, self.grids, strict=True):
+            if grid.gap.min() < -max(self.closing(place), _NO_OVERLAP):
+                return (
+                    f"surfaces of a pair overlap by {-grid.gap.min():.3g} mm where its "
+                    "flanks touch first: beside an undercut normals meet another sheet than the flank"
+                )
         for place, window, p, force in zip(self.places, self.windows, self.pressures, self.forces, strict=True):
             least = place.least_peak(force, self.closing(place), window.width) if force > 0.0 else 0.0
             if not p.max() >= _POSSIBLE * least:
@@ -353,7 +361,8 @@ def _resolved(
             return replace(found, unresolved=found.impossible(member, load))
         level, settled = level + 1, found
         if level == len(_CELLS):
-            return replace(found, unresolved="finer cells go on changing force, rotation or the peak of pressure")
+            reason = found.impossible(member, load) or "finer cells go on changing force, rotation or the peak"
+            return replace(found, unresolved=reason)
         cells = _CELLS[level]
 
 

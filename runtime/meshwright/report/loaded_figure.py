@@ -27,4 +27,8 @@ def draw(analysis):
 
 
 def _of(point, number, key):
-    return next((pair[key] for pair in point["pairs"] if pair["pairs_later"] == number), np.nan)
+    """What a pair has, not a number where an edge carries it and its peak of pressure would dwarf all others."""
+    pair = next((pair for pair in point["pairs"] if pair["pairs_later"] == number), None)
+    if pair is None or (key == "peak_pressure_mpa" and pair.get("carried_by_edge")):
+        return np.nan
+    return pair[key]
