@@ -38,6 +38,8 @@ _CELLS = (21, 15), (31, 21), (47, 25), (71, 29)
 _ENOUGH = 1
 # What may change with finer cells: rotation, forces, and peaks of pressure, of pairs that carry much.
 _SETTLED = 0.01
+# The same of peaks of pairs that a sharp edge presses, which the cells beside it still change.
+_BESIDE_EDGES = 0.05
 # How often the cells are laid out wider where pressure reaches a free border of theirs.
 _WIDENINGS = 5
 # How much wider.
@@ -276,7 +278,8 @@ class _Solution:
     def settled(self, before: _Solution) -> bool:
         """Whether nothing is left that finer cells than ``before`` change by much.
 
-        Forces hold everywhere; peaks do of pairs that carry much, unless that is beside a sharp edge.
+        Forces hold everywhere; peaks do of pairs that carry much, less well where a sharp edge presses, and not where
+        that carries most.
         """
         if any(before.idle(place) != self.idle(place) for place in {*before.places, *self.places}):
             return False
@@ -286,11 +289,11 @@ class _Solution:
         if np.any(np.abs(self.forces - before.forces) > _SETTLED * np.maximum(self.forces, least)):
             return False
         told = [
-            (new.peak, abs(new.peak - old.peak))
+            (new.peak, abs(new.peak - old.peak), _SETTLED if new.depth is None else _BESIDE_EDGES)
             for force, new, old in zip(self.forces, self.edge_zones, before.edge_zones, strict=True)
             if force > least and not (new.holds and old.holds)
         ]
-        return all(change < _SETTLED * max(told)[0] for _, change in told)
+        return all(change < part * max(told)[0] for _, change, part in told)
 
     @cached_property
     def edge_zones(self) -> tuple[EdgeZone, ...]:
