@@ -43,7 +43,11 @@ _END_STATIONS, _END_ROUNDS = 16, 5
 _BEYOND = 1e-4
 # Edges are sharp where the mate goes on so far beyond them, in parts of its flank.
 _SHARP = 0.01
-# Cells across a curve that bends sharply are at least so long on its inside, in parts of their row.
+# Places in each interval of its stations at which the length and the way of a strip's curve are known.
+_FINER = 10
+# Rows turn by no more than this over a length of the curve as long as their own half width, rad.
+_TURN = 0.5
+# Cells on the inside of a bend are at least so long, in parts of their row: beyond a row's own half width.
 _LEAST_LENGTH = 0.1
 # Cells at an edge are so much shorter than the mean.
 _SHORTER = 0.6
@@ -82,7 +86,8 @@ class Strip:
     """A curve in the contact plane, given across its first axis.
 
     ends: where both flanks may lie along that axis, mm; reach: extent across, mm.  along: stations (K,) of the first
-    axis; curve: coordinate along the second one at the first.
+    axis; curve: coordinate along the second one at the first.  turned: angle in rad from the first axis to the way that
+    rows lie straight across, None for that of the curve.
     """
 
     plane: ContactPlane
@@ -90,6 +95,7 @@ class Strip:
     reach: float
     along: Floats
     curve: Callable[..., Floats]
+    turned: Callable[[Floats], Floats] | None = None
 
     @classmethod
     def of(cls, plane: ContactPlane) -> Strip:
@@ -126,10 +132,31 @@ class Strip:
         return np.stack([along, self.curve(along)], axis=-1) + offset[..., None] * way[..., 1, :]
 
     def directions(self, along: Floats) -> Floats:
-        """Unit directions (..., 2, 2) along the curve and to its left, in the contact plane."""
-        slope = self.curve(along, 1)
-        way = np.stack([np.ones_like(slope), slope], axis=-1) / np.hypot(1.0, slope)[..., None]
+        """Unit directions (..., 2, 2) straight across rows and along them, to the left, in the contact plane."""
+        angle = self.way(along)
+        way = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
         return np.stack([way, np.stack([-way[..., 1], way[..., 0]], axis=-1)], axis=-2)
+
+    def way(self, along: Floats) -> Floats:
+        """Angle (...,) in rad from the first axis to the way that rows lie straight across."""
+        return np.arctan(self.curve(along, 1)) if self.turned is None else self.turned(along)
+
+    @cached_property
+    def _measured(self) -> tuple[Floats, Floats]:
+        """Stations (F,) from end to end, and the length (F,) of the curve up to them, mm."""
+        along = np.linspace(*self.ends, _FINER * _STATIONS)
+        middles = 0.5 * (along[1:] + along[:-1])
+        return along, np.insert(np.cumsum(np.diff(along) * np.hypot(1.0, self.curve(middles, 1))), 0, 0.0)
+
+    def _without_crossing(self, width: float) -> Strip:
+        """The strip with rows so wide, to either side, that do not cross where its curve bends, as at a corner: their
+        ways turn with it as fast as they may, before it bends and after.
+        """
+        along, length = self._measured
+        way = self.way(along)
+        most = _TURN / width * np.abs(length[:, None] - length)
+        turned = 0.5 * ((way + most).min(axis=1) + (way - most).max(axis=1))
+        return replace(self, turned=lambda at: np.interp(at, along, turned))
 
     def margin(self, along: Floats, offset: Floats) -> Floats:
         """How far (...,) places of the strip are within both flanks, in parts of the flanks."""
@@ -253,15 +280,20 @@ class Strip:
         ends = self._closed(window.closing)
         if ends is None:
             return None
-        first, last = ends
-        beyond = np.array([first - _BEYOND * self.reach, last + _BEYOND * self.reach])
+        beyond = ends + _BEYOND * self.reach * np.array([-1.0, 1.0])
+        stations, lengths = self._measured
+        first, last = np.interp(ends, stations, lengths)
         bounds = first + (last - first) * _shares(rows, *(self.margin(beyond, np.zeros(2)) < 0.0)[:, None])
-        along = 0.5 * (bounds[1:] + bounds[:-1])
+        along, bounds = (np.interp(at, lengths, stations) for at in (0.5 * (bounds[1:] + bounds[:-1]), bounds))
+        return self._without_crossing(window.width)._divided(along, bounds, window.width, columns)
+
+    def _divided(self, along: Floats, bounds: Floats, width: float, columns: int) -> ContactGrid:
+        """The cells of rows at stations (R,) between others (R + 1,)."""
         middle = self.nearest(along)
         known = np.isfinite(middle)
-        along, middle, steps = along[known], middle[known], np.diff(bounds)[known]
-        sides, cut = zip(*(self._side(along, middle, sign * window.width) for sign in (-1.0, 1.0)), strict=True)
-        return self._cells(along, steps, middle, np.stack(sides), np.stack(cut), columns)
+        along, middle, borders = along[known], middle[known], np.stack([bounds[:-1], bounds[1:]])[:, known]
+        sides, cut = zip(*(self._side(along, middle, sign * width) for sign in (-1.0, 1.0)), strict=True)
+        return self._cells(along, borders, middle, np.stack(sides), np.stack(cut), columns)
 
     def _closed(self, closing: float) -> Floats | None:
         """The first and the last station (2,) at which the gap is less than ``closing``; None where it is nowhere."""
@@ -295,7 +327,7 @@ class Strip:
         return end, cut
 
     def _cells(
-        self, along: Floats, steps: Floats, middle: Floats, sides: Floats, cut: Bools, columns: int
+        self, along: Floats, bounds: Floats, middle: Floats, sides: Floats, cut: Bools, columns: int
     ) -> ContactGrid:
         rows = len(along)
         borders = sides[0][:, None] + (sides[1] - sides[0])[:, None] * _shares(columns, *cut[:, :, None])
@@ -311,11 +343,12 @@ class Strip:
         normals, upright = of["pinion"].normals, of["pinion"].normals @ up
         frame, longer = self._on_flank(np.repeat(along, columns), normals)
         # Rows across a bent curve are longer on its outside, as their centres are further apart there.
-        begin, end = (np.arctan(self.curve(along + side * steps, 1)) for side in (-0.5, 0.5))
-        middle_length = (steps * np.hypot(1.0, self.curve(along, 1)))[:, None]
-        length = np.maximum(middle_length - offsets * (end - begin)[:, None], _LEAST_LENGTH * middle_length)
+        begin, end = self.at(bounds, np.zeros_like(bounds))
+        straight = np.einsum("ri,ri->r", end - begin, self.directions(along)[:, 0])[:, None]
+        turn = np.diff(self.way(bounds), axis=0).T
+        length = np.maximum(straight - offsets * turn, _LEAST_LENGTH * straight)
         half = 0.5 * longer * np.stack([length.ravel(), size.ravel()], axis=1)
-        free, beyond, sharp = self._bounds(along, steps, offsets, sides, cut)
+        free, beyond, sharp = self._bounds(along, bounds, offsets, sides, cut)
         middle_foot = feet.mean(axis=0)
         place = {name: flank.place(of[name], middle_foot) for name, flank in self.plane.flanks.items()}
         return ContactGrid(
@@ -325,7 +358,7 @@ class Strip:
         )  # fmt: skip
 
     def _bounds(
-        self, along: Floats, steps: Floats, offsets: Floats, sides: Floats, cut: Bools
+        self, along: Floats, bounds: Floats, offsets: Floats, sides: Floats, cut: Bools
     ) -> tuple[Bools, dict[str, Bools], Floats]:
         """The cells (2, R, C) at free borders of the grid along and across, by the name of an edge those (4, R C) that
         it bounds at either end and on either side, and how sharp edges are there.
@@ -342,7 +375,7 @@ class Strip:
             stations.append(along[cut[side]])
             beyond.append(sides[side][cut[side]] + (away if side else -away))
         for end, row in ((0, 0), (1, -1)):
-            station = along[row] + (0.5 * steps[row] + away) * (1.0 if end else -1.0)
+            station = bounds[end, row] + away * (1.0 if end else -1.0)
             free[0, row] = self.margin(np.full(columns, station), offsets[row]) >= 0.0
             ended = ~free[0, row]
             cells.append(number[row, ended])
