@@ -276,7 +276,6 @@ class Drive:
     parameters: tuple[Parameter, ...]
     rules: tuple[Rule, ...]
     guards: tuple[Guard, ...]
-    sizes: tuple[tuple[str, sp.Expr, str], ...]
     instant: Quantity
     error: Quantity
     pinion: Body
@@ -289,6 +288,7 @@ class Drive:
     sample: Mapping[str, float | int | str]
     sample_angle: float
     pinion_teeth: str
+    sizes: tuple[tuple[str, sp.Expr, str], ...] = ()
     ratio: sp.Expr | None = None
     wheel_angle: sp.Expr | None = None
     variant: dict[str, str | Count] = field(default_factory=dict[str, "str | Count"])

@@ -56,7 +56,7 @@ def test_of_a_negative_solution_the_positive_is_held():
 
 @pytest.mark.parametrize("seed", range(6))
 def test_a_solution_whose_product_is_rearranged_gives_the_same_jacobian(seed):
-    """w = −n/d from w·d + n = 0, where n and d share factors: where these cancel, the equation reads n in place of w."""
+    """w = −n/d from w·d + n = 0, where n and d share factors: where these cancel, the equation reads n for w."""
     rng = random.Random(seed)
     shared = rng.sample([p, x**2 + 5, sp.cos(y) + 3, p + 2], 2)
     n = rng.choice([x * y + p, sp.sin(x) + y, x - y]) * rng.choice([1, *shared])
