@@ -1,9 +1,9 @@
 """Beveloid (conical involute) gears on skew or intersecting axes: a plane rack tilted by the cone angle cuts each.
 
 Body frame of a gear: z along its axis, the tooth is centred on x at rest. The rack's pitch plane touches the pitch
-cylinder of generation, radius m N/2 at z = 0, and is tilted: along the rack tooth the plane goes out by tan(delta) z, that is, the
-profile shift grows with z. Frames: ``f`` fixed, z along the pinion's axis, x from pinion to wheel; the wheel's
-axis is (0, sin S, cos S) tilted by K about y through (a, 0, 0): axes skew (S) and inclined towards each other (K).
+cylinder of generation, radius m N/2 at z = 0, and is tilted: along the rack tooth the plane goes out by tan(delta) z,
+that is, the profile shift grows with z. Frames: ``f`` fixed, z along the pinion's axis, x from pinion to wheel; the
+wheel's axis is (0, sin S, cos S) tilted by K about y through (a, 0, 0): axes skew (S) and inclined (K).
 """
 
 import sympy as sp

@@ -1,8 +1,8 @@
 """Cycloidal drive: a disc whose lobes are enveloped by the pins of a ring, internal contact; the pins are barrels.
 
-Frames: ``f`` fixed, z along the disc's axis; the ring's axis passes through (-e, 0, 0). Both turn about +z. Pin 0 lies on
-x of the ring at rest. Each pin is in contact all the way round; the word ``flank`` chooses on which side of the line of
-centres it is.
+Frames: ``f`` fixed, z along the disc's axis; the ring's axis passes through (-e, 0, 0). Both turn about +z. Pin 0 lies
+on x of the ring at rest. Each pin is in contact all the way round; the word ``flank`` chooses on which side of the line
+of centres it is.
 """
 
 import sympy as sp
