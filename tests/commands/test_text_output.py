@@ -47,7 +47,7 @@ def test_what_ends_contact_is_said_in_words_for_a_reader(capsys):
 @pytest.mark.parametrize(
     ("name", "words", "computed"),
     [
-        ("bevel-hypoid", {"undercut": "no search", "tip thickness": "helicoid"}, "branch points"),
+        ("bevel-hypoid", {"tip thickness": "helicoid"}, "undercut"),
         ("zk-zn-90", {"section profile": "--section-y-mm"}, "first type"),
         ("recess-action-full", {"first type": "90.1431°", "second type": "90.1431°"}, "regression"),
         ("spherical-table-2-1", {"branch points": "no contact in a point"}, "least teeth without undercut"),
