@@ -116,7 +116,7 @@ def _prefixes(analysis):
     pinion = design.description["pinion_teeth"]
     counted = [p["key"] for p in design.description["parameters"] if p["table"] == "design"]
     counted = [key for key in counted if key.rpartition("_")[2] in ("teeth", "threads") and key != pinion]
-    wheel = next(key for key in counted if round(design.value(key)) == analysis.teeth["wheel"])
+    wheel = next(key for key in counted if abs(round(design.value(key))) == analysis.teeth["wheel"])
     return {"pinion": pinion.partition("_")[0], "wheel": wheel.partition("_")[0]}
 
 
