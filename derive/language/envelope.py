@@ -175,7 +175,7 @@ def in_turn(condition: sp.Expr, angle: Quantity) -> tuple[sp.Expr, sp.Expr, sp.E
     cosine, sine = sp.Symbol("_cos"), sp.Symbol("_sin")
     form = replaced(condition, {sp.cos(angle): cosine, sp.sin(angle): sine})
     if any(partial(partial(form, p), q) != 0 for p, q in ((cosine, cosine), (cosine, sine), (sine, sine))):
-        form = sp.rem(sp.expand(form), sine**2 + cosine**2 - 1, sine)
+        form = sp.expand(replaced(sp.expand(form), {sine**2: 1 - cosine**2}))
     a, b, c = partial(form, cosine), partial(form, sine), replaced(form, {cosine: sp.Integer(0), sine: sp.Integer(0)})
     if {cosine, sine, angle} & (a.free_symbols | b.free_symbols | c.free_symbols):
         raise ValueError("the equation is not linear in the cosine and sine of one angle")

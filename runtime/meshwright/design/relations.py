@@ -161,8 +161,8 @@ class Drawing:
 
     def other_family(self, tables: Mapping[str, Any]) -> str:
         """The other family of which a drive with these sizes, raw tables, is; "" where there is none."""
-        found = [other for _, _, other in self._families(tables)]
-        return found[0]["family"] if found and all(found) else ""
+        found = ["" if other is None else str(other["family"]) for _, _, other in self._families(tables)]
+        return found[0] if found and all(found) else ""
 
     def _families(self, tables: Mapping[str, Any]) -> Iterator[tuple[str, Any, dict[str, Any] | None]]:
         """Place and entry of each size given that decides of which family a drive is, and what says that it is not of
