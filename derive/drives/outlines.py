@@ -192,33 +192,61 @@ def spherical():
     )
 
 
+HELIX = Suggestion("design.pinion_helix_angle_deg", (sp.Integer(0),), "spur; positive is right hand", "beta_deg")
+
+
 def cylindrical():
+    """External involute gears on parallel axes."""
+    opposite = Suggestion(
+        "design.wheel_helix_angle_deg", (-HELIX.symbol,), "the opposite hand on parallel axes"
+    )
+    return _involute(z_1 + z_2, 1, "teeth of the pinion : teeth of the wheel", opposite)
+
+
+#: By how many teeth a pinion cutter of 20° that is fed in radially has fewer than its ring gear.
+FEWER_IN_CUTTER = 18
+
+#: Fewest teeth of a pinion cutter with a tip of some width.
+LEAST_IN_CUTTER = 10
+
+
+def internal():
+    """A pinion in a ring gear, whose number of teeth is negative."""
+    cutter = Suggestion(
+        "design.shaper_teeth", (sp.Min(z_1, sp.Max(-z_2 - FEWER_IN_CUTTER, LEAST_IN_CUTTER)),),
+        "those of the pinion, but so many fewer than the ring gear has that the cutter does not trim its tips",
+        whole=True,
+    )  # fmt: skip
+    return _involute(-z_2 - z_1, -1, "teeth of the pinion : teeth of the ring gear, a negative number", cutter)
+
+
+def _involute(teeth, side, z, *mate):
     """Involute gears on parallel axes; a centre distance that is given is met without backlash by profile shift, half
-    of it each (ISO 21771:2007, working transverse pressure angle and sum of profile shift coefficients).
+    of it each (ISO 21771:2007, working transverse pressure angle and sum of profile shift coefficients). ``teeth`` is
+    the sum of the numbers of teeth, without its sign ``side``.
     """
-    helix = Suggestion("design.pinion_helix_angle_deg", (sp.Integer(0),), "spur; positive is right hand", "beta_deg")
     pressure = Suggestion("design.pressure_angle_deg", (sp.Integer(20),), "ISO 53", "alpha_deg")
-    beta, alpha = sp.rad(helix.symbol), sp.rad(pressure.symbol)
-    reference = Suggestion("", (m * (z_1 + z_2) / (2 * sp.cos(beta)),), "reference centre distance", "a_0", 4)
+    beta, alpha = sp.rad(HELIX.symbol), sp.rad(pressure.symbol)
+    reference = Suggestion("", (m * teeth / (2 * sp.cos(beta)),), "reference centre distance", "a_0", 4)
     transverse = sp.atan2(sp.tan(alpha), sp.cos(beta))
-    cosine = m * (z_1 + z_2) * sp.cos(transverse) / (2 * sp.cos(beta) * a)
+    cosine = m * teeth * sp.cos(transverse) / (2 * sp.cos(beta) * a)
     working = sp.atan2(sp.sqrt(1 - cosine**2), cosine)
-    shifts = (z_1 + z_2) * (sp.tan(working) - working - sp.tan(transverse) + transverse) / (2 * sp.tan(alpha))
+    shifts = side * teeth * (sp.tan(working) - working - sp.tan(transverse) + transverse) / (2 * sp.tan(alpha))
     apart = Suggestion(
         "", ((a - reference.symbol) / m,), "centre distance modification coefficient", "y", 4, within=(-1, 2)
     )
     shift = Suggestion("", (shifts,), "sum of the profile shift coefficients, by the centre distance", "x_sum", 4)
     half = "half of what meets the centre distance without backlash"
     return Outline(
-        {"m": "normal module", "z": "teeth of the pinion : teeth of the wheel", "a": "centre distance"},
+        {"m": "normal module", "z": z, "a": "centre distance"},
         {},
         (
             Suggestion("design.normal_module_mm", (m,)),
             pressure,
             Suggestion("design.pinion_teeth", (z_1,), whole=True),
             Suggestion("design.wheel_teeth", (z_2,), whole=True),
-            helix,
-            Suggestion("design.wheel_helix_angle_deg", (-helix.symbol,), "the opposite hand on parallel axes"),
+            HELIX,
+            *mate,
             reference, apart,
             Suggestion("design.center_distance_mm", (a,)),
             shift,

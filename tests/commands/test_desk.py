@@ -306,9 +306,13 @@ def test_a_first_design_is_asked_for_in_the_words_of_a_drawing(tmp_path, monkeyp
 
 
 REFUSED = {
-    "new cylindrical-gears --m 2 --z 20:-60": "wheel_teeth = -60: no drive of this family has an internal gear",
-    "new cylindrical-gears --m 2 --z 20:rack": "wheel_kind = 'rack': no drive of this family",
-    "new cylindrical-gears --m 2 --z 20:moon": "moon: no kind of wheel of this family",
+    "new bevel --m 2 --z 20:-60": "20:-60: no wheel of the family bevel; use `meshwright new internal-gears`",
+    "new spherical --m 2 --z 20:internal": "20:internal: no wheel.*use `meshwright new internal-gears`",
+    "new cylindrical-gears --m 2 --z 20:internal": "design.wheel_teeth: the key is missing",
+    "new cylindrical-gears --m 2 --z 20:-60 --wheel-kind external": "wheel_teeth = -60: contradicts.*kind = external",
+    "new cylindrical-gears --m 2 --z 20:rack": "wheel_kind = 'rack': no family has a rack",
+    "new cylindrical-gears --m 2 --z 20:moon": "moon: no wheel of the family cylindrical-gears; give its number",
+    "new internal-gears --m 2 --z 20:-24": "tips meet outside the path of contact.*margin in rad of the ring gear -0.0",
     "new cylindrical-gears --z 20:60": "--m: no module",
     "new cylindrical-wurm --m 4 --z 2:40": "did you mean 'cylindrical-worm'",
     "new cylindrical-worm --m 4 --z 2:40 --profile ZX": "no drive of this family has these words.*ZA, ZC, ZI, ZK, ZN",
