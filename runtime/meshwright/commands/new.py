@@ -24,7 +24,7 @@ from meshwright.base.files import write_text
 from meshwright.commands import options as common
 from meshwright.contact.flags import not_first
 from meshwright.contact.results import ON_EDGES, ON_FLANKS, impossible
-from meshwright.cycle.first_contact import Search
+from meshwright.cycle.search import Search
 from meshwright.design import description, schema
 from meshwright.design import design as designs
 from meshwright.design.outline import first_design
