@@ -29,23 +29,27 @@ _DIFFERENCE = 0.01
 
 @dataclass(frozen=True)
 class ContactGrid:
-    """Pressure cells of one pair, N = ``rows`` x ``columns`` rectangles that lie on both flanks, row by row.
+    """Pressure cells of one pair, N = ``rows`` x ``columns`` of them that lie on both flanks, row by row.
 
-    centres (N, 2) in mm along the axes of the contact plane from the contact point.  half (N, 2): half lengths of a
-    cell along a row's way and across it.  frame (N, 3, 3): unit directions along, across and normal, out of the
-    pinion; points (N, 3): on the pinion's flank, fixed frame.  gap (N,) in mm along the normal, positive apart.
-    row_gap (rows,): the smallest in each row; offset (N,): mm across from the place of that.  free (2, N): cells
-    at a border of the grid, along and across, where the flanks go on.  beyond (4, N): by the name of an edge, such as
-    "tip of the wheel", the cells that have it on their side at the begin or the end along, or on either side across;
-    sharp (4, N): 1 for those of them where the mate goes on, 0 where it does not, between where it ends soon.  place:
-    for each member the fractions (N, 2) of flank arc length and face width; free_edges: where it has free edges, 0 and
-    1 for arc length and width, and the fraction there.
+    centres (N, 2) in mm along the axes of the contact plane from the contact point. half (N, 2): half lengths of a
+    cell straight across its row and along that. Where edges are oblique to rows cells are sheared: rectangle (N, 2)
+    has the half sides of those of the same area and second moments, ways (N, 2, 2) their directions in the contact
+    plane, frame (N, 3, 3) those on the pinion's flank, and its normal out of the pinion; points (N, 3): on the
+    pinion's flank, fixed frame. gap (N,) in mm along the normal, positive apart. row_gap (rows,): the smallest in
+    each row; offset (N,): mm across from the place of that. free (2, N): cells at a border of the grid, along and
+    across, where the flanks go on. beyond (4, N): by the name of an edge, such as "tip of the wheel", the cells
+    that have it on their side at the begin or the end along, or on either side across; sharp (4, N): 1 for those of
+    them where the mate goes on, 0 where it does not, between where it ends soon. place: for each member the
+    fractions (N, 2) of flank arc length and face width; free_edges: where it has free edges, 0 and 1 for arc length
+    and width, and the fraction there.
     """
 
     rows: int
     columns: int
     centres: Floats
     half: Floats
+    rectangle: Floats
+    ways: Floats
     frame: Floats
     points: Floats
     gap: Floats
