@@ -25,6 +25,8 @@ _OUTLINE = 9
 _BEYOND = 0.05
 # Differences of the gap about an edge are taken over this part of the extent of the flanks.
 _DIFFERENCE = 0.01
+# Places along either side of a square about it that tell how the gap bends.
+_ABOUT = 7
 
 
 @dataclass(frozen=True)
@@ -105,13 +107,15 @@ class ContactPlane:
         return cls(contact, axes, flanks)
 
     def _least_bent(self) -> Floats:
-        """Unit direction (3,) in the plane in which the gap of the surfaces bends least at the contact."""
+        """Unit direction (3,) in the plane in which the gap of the flanks bends least at the contact, by the places about
+        it that are on both: beside an undercut normals meet another sheet of the surface.
+        """
         step = _DIFFERENCE * float(np.min(np.diff(self.extents(), axis=0)))
-        x, y = np.meshgrid(*([-step, 0.0, step],) * 2, indexing="ij")
-        gap, _ = self.gaps(self.feet(np.stack([x, y], axis=-1).reshape(-1, 2)))
-        gap = gap.reshape(3, 3)
-        bent = np.diag([gap[0, 1] - 2.0 * gap[1, 1] + gap[2, 1], gap[1, 0] - 2.0 * gap[1, 1] + gap[1, 2]])
-        bent[[0, 1], [1, 0]] = 0.25 * (gap[2, 2] - gap[2, 0] - gap[0, 2] + gap[0, 0])
+        x, y = (at.ravel() for at in np.meshgrid(*(np.linspace(-1.0, 1.0, _ABOUT),) * 2, indexing="ij"))
+        gap, inside = self.gaps(self.feet(step * np.stack([x, y], axis=-1)))
+        terms = np.stack([0.5 * x * x, x * y, 0.5 * y * y, x, y, np.ones_like(x)], axis=1)
+        first, both, second, *_ = np.linalg.lstsq(terms[inside], gap[inside], rcond=None)[0]
+        bent = np.array([[first, both], [both, second]])
         _, axes = np.linalg.eigh(bent)
         return axes[:, 0] @ self.axes[:2]
 
