@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from meshwright.fe.hexahedra import Floats
+from meshwright.fe.hexahedra import Floats, Ints
 from meshwright.fe.pair import GearPair, Member, PairTouch
 from meshwright.fe.profile import Rail, SectionCurves, Smooth
 from meshwright.fe.tooth import ToothForm
@@ -107,8 +107,8 @@ class ContactPlane:
         return cls(contact, axes, flanks)
 
     def _least_bent(self) -> Floats:
-        """Unit direction (3,) in the plane in which the gap of the flanks bends least at the contact, by the places about
-        it that are on both: beside an undercut normals meet another sheet of the surface.
+        """Unit direction (3,) in the plane in which the gap of the flanks bends least at the contact, by the places
+        about it that are on both: beside an undercut normals meet another sheet of the surface.
         """
         step = _DIFFERENCE * float(np.min(np.diff(self.extents(), axis=0)))
         x, y = (at.ravel() for at in np.meshgrid(*(np.linspace(-1.0, 1.0, _ABOUT),) * 2, indexing="ij"))
@@ -166,6 +166,14 @@ class Footprint:
     def margin(self) -> Floats:
         """The least of the margins (N,), minus infinity where the normal meets no surface."""
         return np.where(self.pierced, np.min(list(self.margins.values()), axis=0), -np.inf)
+
+    def at(self, rows: Ints) -> Footprint:
+        """Those of some of the feet (M,)."""
+        margins = {name: margin[rows] for name, margin in self.margins.items()}
+        return Footprint(
+            self.points[rows], self.normals[rows], self.pierced[rows], margins, self.excess[rows],
+            self.fraction[rows], self.section[rows],
+        )  # fmt: skip
 
     @property
     def inside(self) -> Bools:

@@ -15,6 +15,7 @@ from functools import cached_property
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
+from scipy.spatial import KDTree
 
 from meshwright.fe.gap import Bools, ContactGrid, ContactPlane
 from meshwright.fe.hexahedra import Floats
@@ -337,10 +338,16 @@ class Strip:
         centres = self.at(stations, offsets).reshape(-1, 2)
         feet = self.plane.feet(centres)
         of = self.plane.footprints(feet)
+        known = np.all([one.inside for one in of.values()], axis=0)
+        nearest = np.arange(len(feet))
+        if not known.all() and known.any():
+            # Beside an undercut a normal may meet another sheet of the surface: there the gap is that of the next cell.
+            nearest = np.flatnonzero(known)[KDTree(centres[known]).query(centres)[1]]
+            of = {name: one.at(nearest) for name, one in of.items()}
         gap, _ = self.plane.gap(of)
         # Straight above their feet, which are known better than where normals are met.
         up, met = self.plane.axes[2], of["pinion"].points
-        points = feet + ((met - feet) @ up)[:, None] * up
+        points = feet + ((met - feet[nearest]) @ up)[:, None] * up
         normals, upright = of["pinion"].normals, of["pinion"].normals @ up
         frame, longer = self._on_flank(np.repeat(along, columns), normals)
         # Rows across a bent curve are longer on its outside, as their centres are further apart there.
