@@ -221,8 +221,6 @@ def bevel(method):
         sizes=_sizes(),
         instant=phi_1,
         error=error,
-        ratio=ratio,
-        wheel_angle=phi_2,
         pinion=pinion,
         wheel=wheel,
         regions=tuple(

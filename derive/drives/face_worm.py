@@ -298,8 +298,6 @@ def face_worm():
         sizes=_sizes(cutter),
         instant=phi_1,
         error=error,
-        ratio=ratio,
-        wheel_angle=phi_2,
         pinion=pinion,
         wheel=wheel,
         regions=(

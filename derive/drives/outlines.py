@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from derive.language.choice import only_where_zero, unit_step
+from derive.language.choice import only_where_within, only_where_zero, unit_step
 from derive.language.outline import Outline, Suggestion, a, m, z_1, z_2
 from derive.language.tool import suggestions
 from derive.tools.worm_body import SHEET_USED
@@ -17,6 +17,9 @@ from derive.tools.worm_body import SHEET_USED
 def _clipped(value, least, most):
     return sp.Min(sp.Max(value, least), most)
 
+
+#: Sizes of two drawings that differ by no larger part are one: their last digit is rounded.
+SAME_SIZE = sp.Rational(1, 10**6)
 
 #: Lead angles from which the pressure angle rises, and by how much (deg): G. Niemann, H. Winter, Maschinenelemente III.
 STEEPER = ((15, sp.Rational(5, 2)), (25, sp.Rational(5, 2)), (35, 5))
@@ -60,7 +63,7 @@ def worm(tools):
     distance_arc = replace(
         distance, values=(r_1 + r_2 + x * m,), why="reference radii and a profile shift of half a module", words=arc
     )
-    distance_asked = replace(distance, values=(a,), why="as asked for", decimals=None)
+    distance_asked = replace(distance, values=(a,), why="", decimals=None)
     wheel_shift = Suggestion(
         "", ((distance.symbol - r_1 - r_2) / m,), "profile shift coefficient of the wheel, by the centre distance",
         "x_2", 4, within=(-1, 1),
@@ -68,7 +71,8 @@ def worm(tools):
     A = distance.symbol  # noqa: N806 the centre distance, by its usual letter
     nominal = Suggestion("", (0 * m,), name="A_sn")
     thinned = Suggestion(
-        "design.worm_thickness_allowance_um", (only_where_zero(hob.symbol - r_1, -20 * m / sp.cos(alpha)),),
+        "design.worm_thickness_allowance_um",
+        (only_where_within(SAME_SIZE * r_1, hob.symbol - r_1, -20 * m / sp.cos(alpha)),),
         "0.02 modules of normal backlash, by a thinner thread: an equal hob keeps its line of contact", "A_sn", 1,
     )  # fmt: skip
     cutting = Suggestion(
@@ -78,6 +82,10 @@ def worm(tools):
             A + hob.symbol - r_1,
         ),
         "without backlash; of a thread of nominal thickness deeper, by 0.02 modules of normal backlash", "A_gen", 4,
+    )  # fmt: skip
+    cutting_equal = replace(
+        cutting, values=(only_where_within(SAME_SIZE * r_1, hob.symbol - r_1, A + hob.symbol - r_1),), decimals=None,
+        why="where an equal hob is the worm: contact along a line",
     )  # fmt: skip
     hob_screw = hob.symbol * sp.tan(sp.asin(normal * threads.symbol / (2 * hob.symbol)))
     worm_rolls, hob_rolls = A - r_2, cutting.symbol - r_2
@@ -106,7 +114,7 @@ def worm(tools):
             hob, hob_arc,
             threads,
             nominal, thinned,
-            cutting,
+            cutting, cutting_equal,
             Suggestion(
                 "design.cutting_shaft_angle_deg", (shaft.symbol + swivel * 180 / sp.pi,),
                 "hob and worm have one direction of the thread where they roll on the wheel", decimals=4,
@@ -240,7 +248,7 @@ def _involute(teeth, side, z, *mate):
             HELIX,
             *mate,
             reference, apart,
-            Suggestion("design.center_distance_mm", (a,), "as asked for; without it: no backlash"),
+            Suggestion("design.center_distance_mm", (a,)),
             shift,
             Suggestion("design.pinion_profile_shift_coefficient", (shift.symbol / 2,), half),
             Suggestion("design.wheel_profile_shift_coefficient", (shift.symbol / 2,), half),

@@ -100,8 +100,6 @@ def spherical(pinion_form, wheel_form):
         sizes=_sizes(definitions, pinion_tooth, wheel_tooth),
         instant=phi_1,
         error=error,
-        ratio=ratio,
-        wheel_angle=phi_2,
         pinion=pinion,
         wheel=wheel,
         regions=tuple(Region(t.gear.name, "fillet", t.fillet, s, fillet_margins(t, alpha), "axial") for t in teeth),

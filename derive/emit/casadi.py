@@ -35,7 +35,7 @@ def function(plan):
     """
     drive, tape = plan.drive, plan.tape
     p, phi, x, inputs = _symbols(plan)
-    [wheel_angle] = tape.evaluate([plan.lower(drive.wheel_angle)], inputs, _Symbolic)
+    [wheel_angle] = tape.evaluate([plan.lower(drive.turned)], inputs, _Symbolic)
     inputs |= dict(zip(plan.placement.parameters, (phi, wheel_angle), strict=True))
 
     def vector(nodes):

@@ -41,7 +41,7 @@ def _conversions():
 def _table(drawing, drives):
     named = {(p.table, p.key): p for p in drawing.sizes}
     own = {}
-    for key, value, meaning in (size for drive in drives for size in drive.sizes):
+    for key, value, meaning in (size for drive in drives for size in drive.all_sizes):
         _, unit, _ = interface_unit(key)
         own.setdefault((Table.DESIGN, key), (named.get((Table.DESIGN, key)) or parameter(key, key, meaning), value))
     relations = [_relation(r.size, r.value, r.solutions) for r in drawing.relations]

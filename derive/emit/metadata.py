@@ -54,7 +54,7 @@ def describe(plan, provenance):
         "ascending_path": drive.ascending_path,
         "flanks_apart": drive.flanks_apart,
         "absorbs_errors": drive.absorbs_errors,
-        "sizes": [_size(*entry) for entry in drive.sizes],
+        "sizes": [_size(*entry) for entry in drive.all_sizes],
         "systems": [_system(drive, system) for system in drive.systems],
         "rules": _rules(drive),
         "exact_rules": [_terms(drive, rule) for rule in drive.completion],

@@ -367,15 +367,34 @@ class Motion:
         The sense of the direction is that in which a growing variable turns the body. Raises ValueError for a motion
         that is not one rotation by it.
         """
+        at, factor, rate = self._turning(variable)
+        outer = Motion(self.factors[:at])
+        centre = factor.centre if isinstance(factor, Swing) else v.ORIGIN
+        return outer.direction(v.scale(rate, v.vector(*v.AXES[factor.axis]))), outer.point(centre)
+
+    def law(self, variable: sp.Symbol, instant: sp.Symbol) -> sp.Expr:
+        """Angle by which the body turns about the :meth:`axis` of ``variable``, in its sense, for one radian of
+        ``instant``.
+
+        Raises ValueError where ``instant`` moves the body otherwise, or not in proportion.
+        """
+        at, factor, rate = self._turning(variable)
+        if any(k != at and _moved_by(other, instant) for k, other in enumerate(self.factors)):
+            raise ValueError(f"{instant} moves the body otherwise than about the axis of {variable}")
+        slope = rate * partial(factor.angle, instant)
+        if slope.has(instant) or slope.has(variable):
+            raise ValueError(f"{instant} turns the body by {slope} for a radian, which is no fixed ratio")
+        return slope
+
+    def _turning(self, variable: sp.Symbol) -> tuple[int, Rotation | Swing, sp.Expr]:
+        """The factor by which ``variable`` turns the body, its place, and its sense."""
         moving = [k for k, factor in enumerate(self.factors) if _moved_by(factor, variable)]
         if len(moving) != 1 or not isinstance(factor := self.factors[moving[0]], Rotation | Swing):
             raise ValueError(f"{variable} does not turn the body about one axis")
-        outer = Motion(self.factors[: moving[0]])
         rate = partial(factor.angle, variable)
         if rate not in (1, -1):
             raise ValueError(f"the body does not turn by {variable} but by {rate} times it")
-        centre = factor.centre if isinstance(factor, Swing) else v.ORIGIN
-        return outer.direction(v.scale(rate, v.vector(*v.AXES[factor.axis]))), outer.point(centre)
+        return moving[0], factor, rate
 
     def substitute(self, replacement: Mapping[_Part, sp.Expr]) -> Motion:
         """The same motion with symbols replaced; rotations that become equal merge again."""

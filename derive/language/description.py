@@ -233,14 +233,14 @@ def _describe(drive: Drive) -> dict[str, Data]:
             {"positive": prefix(g.positive), "message": g.message, "keys": list(g.keys)} for g in drive.guards
         ],
         "design_systems": [_design_system(system) for system in drive.systems],
-        "sizes": [{"key": key, "value": prefix(value), "meaning": meaning} for key, value, meaning in drive.sizes],
+        "sizes": [{"key": key, "value": prefix(value), "meaning": meaning} for key, value, meaning in drive.all_sizes],
         "bodies": [_body(body) for body in drive.bodies],
         "regions": [_region(region) for region in drive.regions],
         "contact": {
             "instant": quantity(drive.instant),
             "error": drive.error.name,
-            "ratio": prefix(drive.ratio),
-            "wheel_angle": prefix(drive.wheel_angle),
+            "ratio": prefix(drive.law),
+            "wheel_angle": prefix(drive.turned),
             "reference_angle": prefix(drive.reference_angle),
             "unknowns": [_unknown(u) for u in drive.unknowns],
             "residual": _vector(drive.residual),

@@ -43,6 +43,9 @@ class Role(Enum):
     SPURIOUS_SHEET = "spurious_sheet"
 
 
+#: The size that every drive has.
+RATIO = "ratio"
+
 #: Ends of a face that lie nearer to the axis and farther from it.
 TOE_AND_HEEL = ("toe", "heel")
 
@@ -248,8 +251,10 @@ class Drive:
     (:class:`Count`); a key in ``variant_defaults`` may be left out and then follows the key named there, or is the word
     or number there. A drive ``handed``
     "right" or "left", the hand in which its equations are written, exists as its own mirror image. ``pinion_teeth`` is
-    the key of the pinion's (worm's) number of teeth. Of each group in ``exclusive`` a design gives exactly one key; of
-    each group in ``together`` ("table.key") all or none. ``tools`` are the generating tools with the keys of their own.
+    the key of the pinion's (worm's) number of teeth. The nominal ratio is that of the wheel's motion (:attr:`law`); a
+    page need not say it, and where it does in ``ratio``, ``wheel_angle`` or the size "ratio" it says the same. Of each
+    group in ``exclusive`` a design gives exactly one key; of each group in ``together`` ("table.key") all or none.
+    ``tools`` are the generating tools with the keys of their own.
     ``reference_angle`` (a parameter, or 0) is the input angle at which the pair meets in the middle of its flanks: the
     start values lead there, and relative transmission errors refer to it.
     ``proportions`` are rules that complete a blank whose sizes the design leaves open, for what needs a whole blank;
@@ -271,11 +276,8 @@ class Drive:
     parameters: tuple[Parameter, ...]
     rules: tuple[Rule, ...]
     guards: tuple[Guard, ...]
-    sizes: tuple[tuple[str, sp.Expr, str], ...]
     instant: Quantity
     error: Quantity
-    ratio: sp.Expr
-    wheel_angle: sp.Expr
     pinion: Body
     wheel: Body
     unknowns: tuple[Unknown, ...]
@@ -286,6 +288,9 @@ class Drive:
     sample: Mapping[str, float | int | str]
     sample_angle: float
     pinion_teeth: str
+    sizes: tuple[tuple[str, sp.Expr, str], ...] = ()
+    ratio: sp.Expr | None = None
+    wheel_angle: sp.Expr | None = None
     variant: dict[str, str | Count] = field(default_factory=dict[str, "str | Count"])
     variant_defaults: dict[str, str | int] = field(default_factory=dict[str, "str | int"])
     handed: str = ""
@@ -315,6 +320,23 @@ class Drive:
     @property
     def bodies(self) -> tuple[Body, Body]:
         return self.pinion, self.wheel
+
+    @cached_property
+    def law(self) -> sp.Expr:
+        """Turns of the wheel for one of the pinion, as the wheel's motion has it: the nominal ratio."""
+        return self.wheel.motion.law(self.error, self.instant)
+
+    @property
+    def turned(self) -> sp.Expr:
+        """Angle of the wheel in mesh: nominal angle and transmission error."""
+        return self.law * self.instant + self.error
+
+    @property
+    def all_sizes(self) -> tuple[tuple[str, sp.Expr, str], ...]:
+        """The sizes that the page names, and the ratio, which every drive has."""
+        if any(name == RATIO for name, *_ in self.sizes):
+            return self.sizes
+        return *self.sizes, (RATIO, self.definitions.resolve(self.law), "wheel turns per pinion turn")
 
     @property
     def completion(self) -> tuple[Rule, ...]:

@@ -8,6 +8,7 @@ The analyses find what a drive offers by the names of its functions, M standing 
 undercut_range_M     where undercut is sought: the profile parameter from ``first`` to ``last`` and at ``middle``; of an
                      explicit surface also the lines ``along_first`` to ``along_last``, else sections of its face;
                      ``start`` is where the tool's profile begins, for the least number of teeth
+                     Without these undercut is sought between the limits of a flank, and along it beyond its face
 undercut_place_M     of a surface's parameters: the place on the tool, a result in mm; ``inside`` > 0 on the flank where
                      the margins do not say it
 profile_pinion, profile_tool, profile_range_…, generation, section, tool_point, second_type, meshing_axes, rack_sizes

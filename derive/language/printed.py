@@ -36,8 +36,6 @@ def misnamed(drive: Drive) -> Iterator[str]:
             yield f"the function {f.name} has no results, or one without values; give some, or leave it out"
         if f.name in _taken(drive):
             yield f"the function {f.name!r} has the name of one that is derived; rename it"
-    if not drive.sizes:
-        yield "there is no size that follows from the design; give at least one in sizes, as the ratio"
 
 
 def _again(what: str, names: Iterable[str], remedy: str) -> Iterator[str]:
@@ -69,7 +67,7 @@ def _no_texts(drive: Drive) -> Iterator[str]:
 def _names(drive: Drive) -> Iterator[tuple[str, str]]:
     yield from (("the key", p.key) for p in drive.parameters)
     yield from (("the table", p.table) for p in drive.parameters)
-    yield from (("the size", name) for name, *_ in drive.sizes)
+    yield from (("the size", name) for name, *_ in drive.all_sizes)
     yield from (("the region", region.name) for region in drive.regions)
     yield from (("the design system", system.name) for system in drive.systems)
     for f in drive.functions:
@@ -80,7 +78,7 @@ def _names(drive: Drive) -> Iterator[tuple[str, str]]:
 def _texts(drive: Drive) -> Iterator[tuple[str, str]]:
     yield "the title", drive.title
     yield from ((f"the meaning of {p.key}", p.symbol.meaning) for p in drive.parameters)
-    yield from ((f"the meaning of the size {name}", meaning) for name, _, meaning in drive.sizes)
+    yield from ((f"the meaning of the size {name}", meaning) for name, _, meaning in drive.all_sizes)
     yield from (("the message of a guard", guard.message) for guard in drive.guards)
     yield from ((f"the message of {system.name}", system.message) for system in drive.systems)
     for f in drive.functions:

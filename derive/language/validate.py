@@ -15,11 +15,12 @@ import sympy as sp
 
 from derive.language.definitions import Definitions
 from derive.language.differentiate import partial
-from derive.language.drive import PATH, Drive, Margin, Region, Role
+from derive.language.drive import PATH, RATIO, Drive, Margin, Region, Role
 from derive.language.functions import OUTLINE, SOLID, SOLID_UNITS, WITH_GENERATION, read_of
 from derive.language.prefix import COMPUTED
 from derive.language.printed import misnamed
 from derive.language.refusal import DescriptionError
+from derive.language.replace import replaced
 from derive.language.sampled import vanishes
 from derive.language.surface import Surface
 from derive.language.symbols import Parameter, Quantity, Table, Unknown, foreign_unit, interface_unit, unit_suffixes
@@ -40,8 +41,8 @@ OWN_ROLES = frozenset(role.value for role in Role)
 def validate(drive: Drive) -> None:
     """Raise :class:`DescriptionError` for the first contradiction in a drive's description."""
     checks = (
-        _expressed, _keys, _units, _names, _words, _exact, _completion, _guards, _sample, _domains, _systems,
-        _design_systems, _bodies, _functions, _turns, _limits, _solids, misnamed,
+        _turns, _expressed, _keys, _units, _names, _words, _exact, _completion, _guards, _sample, _domains, _systems,
+        _design_systems, _bodies, _functions, _law, _indexed, _limits, _solids, misnamed,
     )  # fmt: skip
     for check in checks:
         for message in check(drive):
@@ -87,7 +88,7 @@ def _keys(drive: Drive) -> Iterator[str]:
 
 def _units(drive: Drive) -> Iterator[str]:
     """The unit of a key is its suffix, and that of its symbol the inner one that goes with it."""
-    for key in (*(p.key for p in drive.parameters), *(key for key, *_ in drive.sizes)):
+    for key in (*(p.key for p in drive.parameters), *(key for key, *_ in drive.all_sizes)):
         if word := foreign_unit(key):
             units = ", ".join(unit_suffixes())
             yield f"the key {key!r} has {word!r} of a unit that no key has; end it in one of {units}, or in no unit"
@@ -241,12 +242,12 @@ def _systems(drive: Drive) -> Iterator[str]:
     for u in (*drive.unknowns, *drive.start.unknowns):
         if strangers := _strangers(drive, u.scale, parameters):
             yield f"the natural size of the unknown {u.symbol} needs {', '.join(strangers)}, which no key gives"
-    for what, expression, given in (
-        ("the ratio", drive.ratio, parameters),
-        ("the wheel's angle", drive.wheel_angle, parameters | {drive.instant, drive.error}),
+    if drive.wheel_angle is not None and (
+        strangers := _strangers(drive, drive.wheel_angle, parameters | {drive.instant, drive.error})
     ):
-        if strangers := _strangers(drive, expression, given):
-            yield f"{what} needs {', '.join(strangers)}, which nothing gives"
+        yield f"the wheel's angle needs {', '.join(strangers)}, which nothing gives"
+    if drive.ratio is not None and (strangers := _strangers(drive, drive.ratio, parameters)):
+        yield f"the ratio needs {', '.join(strangers)}, which nothing gives"
     begun = parameters | {drive.instant} | {u.symbol for u in drive.start.unknowns} | drive.start.fixed.keys()
     parts = [*((f"the start of {symbol}", value) for symbol, value in drive.start.outputs.items())]
     parts += [("an equation of the start", equation) for equation in drive.start.residual]
@@ -321,16 +322,80 @@ def _bodies(drive: Drive) -> Iterator[str]:
 
 
 def _turns(drive: Drive) -> Iterator[str]:
-    """Each member turns about one axis: the pinion by the input angle, the wheel by the transmission error too."""
+    """Each member turns about one axis: the pinion by the input angle, the wheel in proportion to it and by the
+    transmission error. The ratio of the drive is that of these motions, and said nowhere else.
+    """
     for body, variable in ((drive.pinion, drive.instant), (drive.wheel, drive.error)):
         try:
             body.motion.axis(variable)
         except ValueError as error:
             yield f"the motion of the {body.name}: {error}"
-    angle, ratio = map(drive.definitions.resolve, (drive.wheel_angle, drive.ratio))
-    slope = partial(angle, drive.instant)
-    if slope != ratio and not vanishes(slope - ratio):
-        yield f"the wheel turns by {slope} for one radian of {drive.instant}, the ratio is {ratio}; make both the same"
+    try:
+        ratio = drive.law
+    except ValueError as error:
+        yield f"the motion of the wheel: {error}; turn it by a ratio times {drive.instant} plus {drive.error}"
+    else:
+        if ratio.is_zero:
+            yield f"the motion of the wheel: the ratio is zero, {drive.instant} does not turn it"
+    if any(sp.sympify(e).has(drive.error) for factor in drive.pinion.motion.factors for e in factor.expressions()):
+        yield f"the motion of the pinion: {drive.error} moves it; only the wheel turns by the transmission error"
+
+
+def _law(drive: Drive) -> Iterator[str]:
+    """What else a page says of the ratio is what the motion of the wheel has."""
+    ratio, keep = drive.law, "it follows from the motion: leave it out, or correct the motion"
+    if strangers := _strangers(drive, ratio, {p.symbol for p in drive.parameters}):
+        yield f"the motion of the wheel turns it by what needs {', '.join(strangers)}, which nothing gives"
+    turned = f"the motion of the wheel turns it by {_short(drive.definitions.resolve(ratio))} for one radian of "
+    turned += f"{drive.instant}"
+    sizes = (value for name, value, _ in drive.sizes if name == RATIO)
+    for what, said in (("the ratio", drive.ratio), ("the size 'ratio'", next(sizes, None))):
+        if said is not None and not _same(drive, said, ratio):
+            yield f"{turned}, {what} is {_short(drive.definitions.resolve(said))}; {keep}"
+    if drive.wheel_angle is not None:
+        slopes = [partial(drive.definitions.resolve(drive.wheel_angle), q) for q in (drive.instant, drive.error)]
+        for said, wanted in zip(slopes, (ratio, sp.S.One), strict=True):
+            if not _same(drive, said, wanted):
+                yield (
+                    f"{turned}, the wheel's angle by {_short(slopes[0])}, and by {_short(slopes[1])} for one of "
+                    f"{drive.error}; {keep}"
+                )
+
+
+def _same(drive: Drive, one: sp.Expr, other: sp.Expr) -> bool:
+    difference = drive.definitions.resolve(one) - drive.definitions.resolve(other)
+    return difference == 0 or vanishes(difference)
+
+
+def _short(expression: sp.Expr) -> str:
+    """An expression as a message shows it."""
+    text = str(expression)
+    return text if len(text) < 80 else f"{text[:76]} ..."
+
+
+#: Designs of whole numbers at which the teeth of the wheel are counted.
+COUNTED = 4
+
+
+def _indexed(drive: Drive) -> Iterator[str]:
+    """One tooth on, the pair is the same: teeth of the pinion over the ratio of the motions are whole teeth of the
+    wheel, whatever whole numbers a design gives.
+    """
+    key = next(p for p in drive.parameters if drive.pinion_teeth in (p.key, p.place))
+    count = sp.sympify(key.symbol / drive.definitions.resolve(drive.law))
+    whole = {p.symbol: -1 if p.symbol.domain[1] <= 0 else 1 for p in drive.parameters if p.integer or p.choices}
+    if drive.definitions.free(count) - {*whole}:
+        return
+    for k in range(1, COUNTED + 1):
+        places = {q: sense * sp.Integer(sp.prime(k + 3 * n + 2)) for n, (q, sense) in enumerate(whole.items())}
+        teeth = replaced(count, places)
+        if not (isinstance(teeth, sp.Integer) and int(teeth) > 0):
+            at = ", ".join(f"{q} = {places[q]}" for q in whole if drive.definitions.depends(count, q))
+            yield (
+                f"the motion of the wheel gives it {_short(count)} teeth to {key.symbol} of {key.key!r}: {teeth} where "
+                f"{at}; it needs a whole number of them: turn it by {key.symbol} over its teeth times {drive.instant}, "
+                f"in the sense of {drive.error}"
+            )
 
 
 def _solids(drive: Drive) -> Iterator[str]:
@@ -402,13 +467,14 @@ def _expressions(drive: Drive) -> Iterator[tuple[str, Number]]:
     yield from ((f"the default of {p.key}", p.default) for p in drive.parameters if p.default is not None)
     yield from ((f"the rule for {rule.target}", rule.value) for rule in drive.rules)
     yield from ((f"the guard {guard.message!r}", guard.positive) for guard in drive.guards)
-    yield from ((f"the size {name}", value) for name, value, _ in drive.sizes)
+    yield from ((f"the size {name}", value) for name, value, _ in drive.all_sizes)
     yield from (("an equation of contact", equation) for equation in drive.residual)
     yield from ((f"the start of {symbol}", value) for symbol, value in drive.start.outputs.items())
     yield from (("an equation of the start", equation) for equation in drive.start.residual)
     yield from ((f"the guess of {symbol}", value) for symbol, value in drive.guess.items())
     yield from ((f"the natural size of the unknown {u.symbol}", u.scale) for u, _ in unknowns(drive))
-    yield from (("the ratio", drive.ratio), ("the wheel's angle", drive.wheel_angle))
+    said = (("the ratio", drive.ratio), ("the wheel's angle", drive.wheel_angle))
+    yield from ((what, value) for what, value in said if value is not None)
     yield ("the reference angle", drive.reference_angle)
     for member in (*drive.bodies, *drive.regions):
         if isinstance(member, Region) or member.regular is not None:
@@ -459,5 +525,3 @@ def _limits(drive: Drive) -> Iterator[str]:
         if len(surface.parameters) != len(surface.conditions) + 2:
             count = f"{len(surface.parameters)} parameters for {len(surface.conditions)} conditions"
             yield f"the {member}'s {name} has {count}; a surface has two more"
-    if sp.sympify(drive.ratio).is_zero:
-        yield "the ratio is zero"

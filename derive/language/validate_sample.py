@@ -187,22 +187,36 @@ def validate_normals(drive: Drive, observed: Observed, values: Numbers) -> None:
         )
 
 
-#: Share by which a pair may transmit another ratio at one contact than over a turn: an error of motion is far smaller.
-OFF_RATIO = 0.05
+#: Teeth by which a pair may transmit another ratio at one contact than over a turn: an error of motion is far smaller,
+#: a tooth too many in a motion four times that.
+OFF_TEETH = 0.25
 
 
 def validate_ratio(drive: Drive, observed: Observed, values: Numbers) -> None:
-    """Raise :class:`DescriptionError` unless flanks transmit the ratio of the description at the sample's contact.
+    """Raise :class:`DescriptionError` unless flanks transmit the ratio of the motions at the sample's contact: where
+    they do not, the pair after the next pitch is not in mesh.
 
     Arguments as of :func:`validate_normals`.
     """
     pinion, wheel = (observed[f"lever_arm_{body.name}"][0] for body in drive.bodies)
-    ratio, found = float(value_of(drive.ratio, values, drive.definitions)), float(pinion / wheel)
-    if not abs(found - ratio) <= OFF_RATIO * abs(ratio):
-        raise DescriptionError(
-            f"{drive.name}: the ratio is {ratio:.6g}, but the flanks transmit {found:.6g} at the sample's "
-            "contact; give turns of the wheel per turn of the pinion: pinion teeth over wheel teeth"
+    key = next(p for p in drive.parameters if drive.pinion_teeth in (p.key, p.place))
+    ratio, found = float(value_of(drive.law, values, drive.definitions)), float(pinion / wheel)
+    teeth = float(values[key.symbol])
+    off = abs(found / ratio - 1.0) * max(teeth, teeth / ratio)
+    if off <= OFF_TEETH:
+        return
+    if found < 0.0:
+        remedy = f"turn the sense of the wheel's motion, or that of {drive.instant} in one of the motions"
+    else:
+        remedy = (
+            f"so the next pair of teeth is off by {off:.3g} of a pitch: correct the ratio of the wheel's motion, or of "
+            "the motions that generate the flanks"
         )
+    raise DescriptionError(
+        f"{drive.name}: the motion of the wheel turns it by {ratio:.7g} for one turn of the pinion, the flanks "
+        f"transmit {found:.7g} at the sample's contact, {teeth:.6g} teeth of the pinion to {abs(teeth / found):.6g} "
+        f"of the wheel; {remedy}"
+    )
 
 
 def validate_regions(drive: Drive, joints: Iterable[Joint]) -> None:

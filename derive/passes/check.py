@@ -245,10 +245,24 @@ def _derives_identically(
     tape: Tape, values: Sequence[int], inputs: Sequence[int], slopes: Sequence[Sequence[int]]
 ) -> bool:
     """Whether the slopes are the derivatives at some input at which every root exists; wrong ones are so at none."""
+    return _holds_somewhere(tape, lambda draw: not _wrong_slope(draw, values, inputs, slopes))
+
+
+def equal(tape: Tape, one: int, other: int) -> bool:
+    """Whether two nodes have one value."""
+
+    def agree(draw: _Draw) -> bool:
+        return (draw(one) - draw(other)) % _prime() == 0
+
+    return agree(_Draw(tape, _TAPES.setdefault(tape, {}), _APPLY)) or _holds_somewhere(tape, agree)
+
+
+def _holds_somewhere(tape: Tape, holds: Callable[[_Draw], bool]) -> bool:
+    """Whether something holds at some input at which every root exists, with the identities of roots and angles."""
     refusals = 0
     for _ in range(DRAWS):
         try:
-            if not _wrong_slope(_Draw(tape, {}, _IDENTICAL), values, inputs, slopes):
+            if holds(_Draw(tape, {}, _IDENTICAL)):
                 return True
         except ArithmeticError:  # no root, or a divisor that is zero
             continue

@@ -22,7 +22,7 @@ def derive(drive: Drive) -> Derived:
     rules = tuple(on_parameters(drive, [rule.value]) for rule in drive.completion)
     completion = together(drive)
     systems = tuple(lower_system(system, drive.parameters) for system in drive.systems)
-    sizes = on_parameters(drive, [value for _, value, _ in drive.sizes])
+    sizes = on_parameters(drive, [value for _, value, _ in drive.all_sizes])
     unknowns = [u.symbol for u in drive.unknowns]
     residual = [lower(r) for r in drive.residual]
     linear = linearise.linearise(lower.tape, residual, list(map(lower, unknowns)), _solutions(drive, lower))

@@ -48,7 +48,7 @@ def placement(drive: Drive) -> Function:
     Of each member the rows of the 3 × 4 matrix (rotation | origin) that takes its frame into the fixed frame, and unit
     direction and a point of the axis about which a growing angle of its own turns it, misalignments included.
     """
-    at_wheel_angle = {drive.error: WHEEL_ANGLE - (drive.wheel_angle - drive.error)}
+    at_wheel_angle = {drive.error: WHEEL_ANGLE - (drive.turned - drive.error)}
     results: list[Result] = []
     for body, variable in ((drive.pinion, drive.instant), (drive.wheel, drive.error)):
         direction, point = body.motion.axis(variable)

@@ -9,6 +9,7 @@ changes of the unknowns and of these variables; eliminating the variables gives 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+from derive.passes import check
 from derive.program.tape import Stage, Tape
 
 Rows = list[list[int]]
@@ -42,10 +43,19 @@ def linearise(
     """
     best = _assembled(tape, residual, unknowns, {})
     equations = dict(_positive(tape, *solved) for solved in solutions)
-    if equations:
-        held = _assembled(tape, residual, unknowns, equations)
+    read = {v: solved for v, solved in equations.items() if _is_read(tape.copy(), v, *solved)}
+    if read:
+        held = _assembled(tape, residual, unknowns, read)
         best = min(best, held, key=lambda linear: _operations(tape, residual, linear))
     return best
+
+
+def _is_read(tape: Tape, solution: int, equation: int, slope: int) -> bool:
+    """Whether an equation on the tape, to which this adds, reads its solution wherever it stands in it: a product with
+    the solution that is rearranged reads a factor of it, and the equation then has not the slope that it should.
+    """
+    (own,) = _Forward(tape, [solution])(equation)
+    return check.equal(tape, own, slope)
 
 
 def _positive(tape: Tape, solution: int, equation: int, slope: int) -> tuple[int, tuple[int, int]]:

@@ -29,7 +29,7 @@ def observe(plan: Reduced) -> Observed:
         if body.point:
             plan.lower.stand(body.point, local)
         found.append(Output(f"point_{body.name}", local, "mm", body.name))
-    found.append(Output("wheel_angle", (plan.lower(drive.wheel_angle),), "rad", "f"))
+    found.append(Output("wheel_angle", (plan.lower(drive.turned),), "rad", "f"))
     for body in drive.bodies:
         found += (Output(f"{q}", (plan.lower(q),), q.unit, q.frame) for q in body.recovered)
     bodies: dict[str, BodyOutputs] = {}

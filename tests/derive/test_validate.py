@@ -9,7 +9,7 @@ import sympy as sp
 
 from derive import drives
 from derive.language import vectors as v
-from derive.language.chain import Motion
+from derive.language.chain import Motion, translation
 from derive.language.contact import contact
 from derive.language.drive import DesignSystem, Loading, Margin, Role
 from derive.language.functions import Function, Result, solid
@@ -29,6 +29,7 @@ from derive.passes.equations import derive
 from derive.passes.joints import joints
 from derive.passes.sample import observation, sample_contact
 from derive.passes.schedule import schedule
+from tests.quick import quick
 
 POINT, SMALL = "spherical_convex_concave", "spherical_convex_spur"
 
@@ -80,7 +81,15 @@ def _without_regions(drive):
     return replace(drive, pinion=pinion, wheel=wheel, regions=())
 
 
+def _turning(drive, ratio):
+    """The drive with a wheel that its motion turns by another ratio."""
+    motion = drive.wheel.motion.substitute({drive.instant: ratio / drive.law * drive.instant})
+    sizes = tuple(size for size in drive.sizes if size[0] != "ratio")
+    return replace(drive, wheel=replace(drive.wheel, motion=motion), sizes=sizes, ratio=None, wheel_angle=None)
+
+
 X = Quantity("x_at_pinion", "mm")
+TEETH = Quantity("T_2")
 MODULE = Quantity("m", "mm")
 GUARD = Guard(sp.Symbol("m"), "never", ())
 CASES = {
@@ -169,7 +178,30 @@ CASES = {
         lambda d: _with_margin(d, Margin("off_tip", "fold", X)), "'fold' of the pinion.*role None; use one of TIP"
     ),
     "ratio that the wheel does not follow": (
-        lambda d: replace(d, ratio=1 / d.ratio), r"the wheel turns by .* the ratio is .*; make both"
+        lambda d: replace(d, ratio=1 / d.law), r"motion of the wheel turns it by T_1/T_2 .*ratio is T_2/T_1"
+    ),
+    "size that the wheel does not follow": (
+        lambda d: replace(d, sizes=(("ratio", 2 * d.law, "twice"),)), r"by T_1/T_2 .*the size 'ratio' is 2\*T_1"
+    ),
+    "motion that is told otherwise": (
+        lambda d: replace(_turning(d, d.law * TEETH / (TEETH + 1)), ratio=d.law), r"by T_1/\(T_2 \+ 1\).*is T_1/T_2"
+    ),
+    "motion of a tooth that is not whole": (
+        lambda d: _turning(d, 2 * d.law / 3), r"gives it 3\*T_2/2 teeth .* it needs a whole number of them"
+    ),
+    "motion of another sense than the error": (lambda d: _turning(d, -d.law), "-T_2 teeth.*in the sense of"),
+    "motion of strangers": (lambda d: _turning(d, sp.Symbol("q")), "turns it by what needs q, which nothing gives"),
+    "motion at rest": (lambda d: _turning(d, sp.S.Zero), "the ratio is zero, phi_pinion does not turn it"),
+    "motion that travels too": (
+        lambda d: replace(d, wheel=replace(d.wheel, motion=translation(x=d.instant) @ d.wheel.motion)),
+        "phi_pinion moves the body otherwise than about the axis of transmission_error",
+    ),
+    "motion faster and faster": (
+        lambda d: _turning(d, d.law * d.instant), "turns the body by .*phi_pinion.* for a radian, which is no fixed"
+    ),
+    "error of the pinion": (
+        lambda d: replace(d, pinion=replace(d.pinion, motion=translation(x=d.error) @ d.pinion.motion)),
+        "transmission_error moves it; only the wheel",
     ),
     "solid of no member": (
         lambda d: _with_solid(d, "gear", module=(1, "mm")), "solid_gear is of no member; use solid_pinion or solid_"
@@ -202,10 +234,10 @@ CASES = {
         lambda d: _with_margin(d, Margin("off_tip", "tip", 2**X)), r"'tip' of the pinion has the power 2\*\*x_at_pinion"
     ),
     "angle of the wheel that needs what nobody gives": (
-        lambda d: replace(d, wheel_angle=d.wheel_angle + sp.Symbol("hugo")), "wheel's angle needs hugo"
+        lambda d: replace(d, wheel_angle=d.turned + sp.Symbol("hugo")), "wheel's angle needs hugo"
     ),
     "wheel that turns faster and faster": (
-        lambda d: replace(d, wheel_angle=d.wheel_angle + d.ratio * (d.instant**3 - d.instant)), "the wheel turns by"
+        lambda d: replace(d, wheel_angle=d.turned + d.law * (d.instant**3 - d.instant)), "the wheel's angle by"
     ),
     "body without a motion": (
         lambda d: replace(d, pinion=replace(d.pinion, motion=Motion())), "motion of the pinion.*does not turn the body"
@@ -237,7 +269,6 @@ CASES = {
     "family of two words": (lambda d: replace(d, family="a b"), r"the family 'a b' is no name in a design file"),
     "variant of a number": (lambda d: replace(d, variant={"form": 3}), r"the variant 'form' is 3; give a word"),
     "text that ends a comment": (lambda d: replace(d, title="a */ b"), r"title 'a \*/ b' has '\*/', which would end"),
-    "no sizes": (lambda d: replace(d, sizes=()), "no size that follows from the design; give at least one"),
     "sign of strangers": (
         lambda d: replace(d, pinion=replace(d.pinion, regular=sp.Symbol("q"))), "`regular` of the pinion needs q"
     ),
@@ -306,15 +337,29 @@ def test_an_outline_names_keys_of_its_family(family):
 
 
 @pytest.mark.parametrize("name", [POINT, "cylindrical_gears", "cylindrical_worm_zn_zn"])
-def test_a_ratio_that_is_not_what_the_flanks_transmit_is_refused(name):
+def test_a_motion_that_is_not_what_the_flanks_transmit_is_refused(name):
+    """Turned round, the other way up, or for one tooth more on the member that has more of them."""
     drive = _drive(name)
     plan = schedule(drive)
+    (teeth,) = (p.symbol for p in drive.parameters if p.key == drive.pinion_teeth)
+    count = sp.together(teeth / drive.definitions.resolve(drive.law))
     with mpmath.workdps(30):
         observed = observation(plan)
         validate_ratio(drive, observed, plan.sample)
-        for wrong in (1 / drive.ratio, -drive.ratio):
-            with pytest.raises(DescriptionError, match=r"the ratio is .*transmit .*pinion teeth over wheel teeth"):
-                validate_ratio(replace(drive, ratio=wrong), observed, plan.sample)
+        for wrong in (1 / drive.law, -drive.law, teeth / (count + 1), teeth / (count - 1)):
+            with pytest.raises(DescriptionError, match=r"motion of the wheel turns it by .*the flanks transmit "):
+                validate_ratio(_turning(drive, wrong), observed, plan.sample)
+
+
+@pytest.mark.parametrize("name", [POINT, "cylindrical_gears", "face_worm", "bevel_formate"])
+def test_a_drive_has_its_ratio_from_the_motion_of_the_wheel(name):
+    drive = _drive(name)
+    bare = replace(drive, sizes=drive.sizes[:0], ratio=None, wheel_angle=None)
+    validate(bare)
+    ((key, value, _),) = bare.all_sizes
+    (teeth,) = (p.symbol for p in drive.parameters if p.key == drive.pinion_teeth)
+    assert key == "ratio" and 1 / (value / teeth) in {p.symbol for p in drive.parameters if p.integer}
+    assert sp.diff(bare.turned, drive.error) == 1
 
 
 def _turned_round(body):
@@ -327,8 +372,14 @@ def _checked(drive):
         validate_normals(drive, observation(plan), plan.sample)
 
 
-@pytest.mark.parametrize("name", [POINT, "spherical_spur_spur", "spherical_concave_concave", "cylindrical_worm_zn_zn",
-                                  "cylindrical_worm_zc_zn", "face_worm", "cylindrical_gears"])  # fmt: skip
+#: Drives with point contact, line contact, and interference.
+INWARD = (
+    POINT, "spherical_spur_spur", "cylindrical_gears", "spherical_concave_concave", "cylindrical_worm_zn_zn",
+    "cylindrical_worm_zc_zn", "face_worm",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("name", quick(INWARD, *INWARD[:3]))
 def test_normals_that_point_inward_are_found(name):
     """One alone, or both, which no equation of contact sees: with point contact, line contact, and interference."""
     drive = _drive(name)

@@ -14,10 +14,15 @@ FILES = Path(__file__).parent / "drives"
 
 def derived(name, folder):
     """``python -m derive NAME.py --into folder``; returns the folder."""
-    command = [sys.executable, "-m", "derive", FILES / f"{name}.py", "--into", folder]
-    done = subprocess.run(command, cwd=ROOT, env=os.environ, capture_output=True, text=True)
+    done = answered(FILES / f"{name}.py", folder)
     assert done.returncode == 0, done.stderr
     return folder
+
+
+def answered(page, folder):
+    """How ``python -m derive PAGE --into folder`` ended."""
+    command = [sys.executable, "-m", "derive", page, "--into", folder]
+    return subprocess.run(command, cwd=ROOT, env=os.environ, capture_output=True, text=True)
 
 
 class Commands:

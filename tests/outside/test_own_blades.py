@@ -1,6 +1,7 @@
 """Worms cut by blades of an own file, against an own formulation in 40 digits that knows their profiles alone."""
 
 import dataclasses
+import json
 import math
 
 import mpmath as mp
@@ -191,3 +192,15 @@ def test_windows_of_contact_and_a_first_design(folder, tmp_path):
     assert main(["--drives", str(folder), *words]) == 0
     found = Commands(folder, path).json("ratio", "--set", "design.blade_crown_per_mm=0.0005")
     assert found["begin"]["event"] and found["contact_ratio"] > 1.0
+
+
+def test_rexs_has_no_word_for_an_own_blade_and_says_so(folder, tmp_path):
+    """All else is written, and read again."""
+    file, report = tmp_path / "design.rexs", tmp_path / "report.json"
+    path = tmp_path / "design.toml"
+    path.write_text(designs.toml_text(tables_of(CROWNED)), encoding="utf-8")
+    Commands(folder, path)("export", "--rexs", file, "--json", report)
+    unmapped = [entry for entry in json.loads(report.read_text(encoding="utf-8"))["unmapped"] if "attribute" in entry]
+    reasons = [entry["reason"] for entry in unmapped if entry["attribute"] == "flank_form"]
+    assert len(reasons) == 3 and all("no word for 'ZY'" in reason and "ZA, ZI, ZN" in reason for reason in reasons)
+    assert 'id="number_of_teeth"' in file.read_text(encoding="utf-8")

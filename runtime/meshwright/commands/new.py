@@ -360,7 +360,8 @@ def _out_of_line(drive, result):
     if search is None or not search.flank.pointless:
         return np.inf
     own = drive.design.mirror.sign * result.angles
-    return np.nanmax([search.rise(*at) for at in zip(own, search.at(own), strict=True)])
+    rises = [search.rise(*at) for at in zip(own, search.at(own), strict=True)]
+    return max(filter(np.isfinite, rises), default=np.inf)
 
 
 def _family(name):

@@ -16,7 +16,7 @@ from meshwright.limits.least_teeth import least_teeth
 from meshwright.limits.omitted import omitted
 from meshwright.limits.results import Limits, Request
 from meshwright.limits.thickness import tip_thicknesses
-from meshwright.limits.undercut import undercut_lines
+from meshwright.limits.undercut import undercut_lines, within_limits
 
 __all__ = ["STEPS", "Limits", "Request", "contacts_of", "limits_of"]
 
@@ -41,14 +41,14 @@ def limits_of(drive, request=None, step=lambda text: None):
     generated = rack.generation_limits(drive, request) if functions.has(drive, "generation") else rack.none(request)
     searched = drive.design.description["least_teeth"]
     step("undercut lines")
-    undercut = undercut_lines(drive, request)
+    undercut, (beside, unsought) = undercut_lines(drive, request), within_limits(drive, request)
     step("branch points")
     branches = branch_points(drive)
     step("thickness of the tips")
     thickness = tip_thicknesses(drive)
     step("least numbers of teeth and clearance of the tool")
     found = Limits(
-        undercut=undercut,
+        undercut=undercut + beside,
         branch_points=branches,
         assumed_blank=assumed,
         blank_left_open=left_open,
@@ -56,7 +56,7 @@ def limits_of(drive, request=None, step=lambda text: None):
         pointed_teeth=pointed(given),
         least_teeth={member: least_teeth(drive, member) for member in searched} or None,
         tool_clearance=clearance.judged(drive) if drive.design.description["tool_clearance"] else None,
-        omitted=omitted(drive, request, thickness),
+        omitted=omitted(drive, request, thickness, unsought),
         **generated,
     )
     mirror = drive.design.mirror

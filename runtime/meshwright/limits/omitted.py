@@ -14,11 +14,11 @@ _GENERATED = ("regression", "first_type", "second_type", "meshing_axes", "sectio
 _RIGHT_ANGLED = ("first_type", "second_type", "section_profile")
 
 
-def omitted(drive, request, thickness):
+def omitted(drive, request, thickness, unsought):
     """{name in the schema: why it is not computed} of a drive for a :class:`~meshwright.limits.results.Request`;
-    ``thickness``: the tips that were found.
+    ``thickness``: the tips that were found; ``unsought``: undercut, or that of a member, and why it is not sought.
     """
-    found = _searched(drive)
+    found = _searched(drive, unsought)
     if not functions.has(drive, "generation"):
         return found | dict.fromkeys(_GENERATED, "known of a wheel that a cylindrical helicoid generates alone")
     if request.section_y is None:
@@ -31,11 +31,11 @@ def omitted(drive, request, thickness):
     return found
 
 
-def _searched(drive):
+def _searched(drive, unsought):
     """Of what is sought on every drive that says where."""
     found = {}
-    if not functions.offered(drive, "undercut_place_"):
-        found["undercut"] = "this drive offers no search of its flanks; `tca` flags contact that lies past undercut"
+    for name, why in unsought.items():
+        found[name] = f"{why}; `tca` flags contact that lies past undercut"
     if branches.start(drive) is None:
         found["branch_points"] = "no contact in a point about angle 0 from which a branch could be followed"
     if apart := unknown(drive):

@@ -12,18 +12,25 @@ STEP, FARTHEST = 0.1, 28.0
 CORRECTIONS, HALVINGS = 25, 60
 
 
-def edges(surface, profile):
-    """Where the surface becomes singular at this place of the profile, nearest to its reference point either way.
+def edges(surface, profile, near=(0.0, 0.0)):
+    """Where the surface becomes singular at this place of the profile, nearest either way to the place where the other
+    two parameters are ``near`` some.
 
     ``surface`` is a :class:`~meshwright.flank.surface.Flank` of three parameters, the profile's first. Returns
     parameter triples (M, 3), M from 0 to 2; none if the surface is singular already where the curve starts, or the
     place of the profile generates nothing there.
     """
-    start = _on_curve(surface, np.array([profile, 0.0, 0.0]))
-    if start is None or surface([start]).regular[0] <= 0:
+    start = begun(surface, profile, near)
+    if start is None:
         return np.empty((0, 3))
     found = [_followed(surface, start, sign) for sign in (-1.0, 1.0)]
     return np.array([q for q in found if q is not None]).reshape(-1, 3)
+
+
+def begun(surface, profile, near):
+    """Where the curve of :func:`edges` starts; None if the surface is singular there, or generates nothing."""
+    start = _on_curve(surface, np.array([profile, *near]))
+    return None if start is None or surface([start]).regular[0] <= 0 else start
 
 
 def _on_curve(surface, q):

@@ -2,17 +2,21 @@
 
 An explicit surface of two parameters is searched along its profile: on given lines, or in sections across the axis of
 the member. An envelope of three parameters, related by its equation of meshing, is followed at fixed places of the
-profile (:mod:`meshwright.limits.singular_lines`).
+profile (:mod:`meshwright.limits.singular_lines`). Where a drive does not say where to search, the limits of its flanks
+do: between their ends across the tooth, and along it beyond its ends too.
 """
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
+from meshwright.base.errors import UsageError
 from meshwright.contact.functions import has, offered
+from meshwright.flank.region import region
 from meshwright.limits.rack import generation_range
 from meshwright.limits.results import SurfaceLimit
-from meshwright.limits.singular_lines import edges
+from meshwright.limits.singular_lines import begun, edges
 from meshwright.limits.zeros import zeros
 
 #: Samples of a profile between which sign changes of the singular function are sought.
@@ -28,11 +32,77 @@ AT_LIMIT = 1e-9
 
 
 def undercut_lines(drive, request):
-    """:class:`~meshwright.limits.results.SurfaceLimit` of every member: ``request.grid`` lines, sections or places of
-    the profile, or the axial positions ``request.axial`` (mm).
+    """:class:`~meshwright.limits.results.SurfaceLimit` of every surface for which the drive says where to search:
+    ``request.grid`` lines, sections or places of the profile, or the axial positions ``request.axial`` (mm).
     """
     names = offered(drive, "undercut_place_")
-    return tuple(limit for name in names for limit in _on_surface(drive, name, request))
+    return tuple(limit for name in names if _is_told(drive, name) for limit in _on_surface(drive, name, request))
+
+
+def within_limits(drive, request):
+    """The same of every member of which the drive does not say where to search, but other surfaces: between the limits
+    of its flank. Second result: {"undercut", or "undercut_of_M" where another member has some: why it is not sought}.
+    """
+    names = offered(drive, "undercut_place_") or [body["name"] for body in drive.design.description["bodies"]]
+    found, unsought = [], {}
+    for name in (name for name in names if not _is_told(drive, name)):
+        try:
+            found += _between_limits(drive, name, request)
+        except UsageError as error:
+            unsought[name] = str(error)
+    if found:
+        return tuple(found), {f"undercut_of_{name}": why for name, why in unsought.items()}
+    return (), {"undercut": "; ".join(f"{name}: {why}" for name, why in unsought.items())} if unsought else {}
+
+
+def _is_told(drive, name):
+    """Whether functions of the drive say where to search a surface; sections are across an axial tooth."""
+    if not has(drive, f"undercut_place_{name}"):
+        return False
+    surface = drive.flank(name)
+    along = len(surface.parameters) == 3 or "along_first" in search_range(drive, name)
+    return along or surface.body.get("lengthwise", "axial") == "axial"
+
+
+def _between_limits(drive, name, request):
+    """Undercut within all limits of a flank but the ends of its face, and as far again beyond these."""
+    bounded = region(drive, name, "flank", drive.uses)
+    if bounded.empty:
+        raise UsageError(bounded.why_empty)
+    surface, (across, along) = bounded.flank, bounded.chart.free
+    (first, begin), (last, end) = bounded.box
+    if across != bounded.profile:
+        (across, first, last), (begin, end) = (along, begin, end), (first, last)
+    ends = {"first": first, "last": last, "middle": float(bounded.seed[across])}
+    if has(drive, f"undercut_range_{name}"):
+        ends |= search_range(drive, name)
+    if len(surface.parameters) == 3:
+        near = bounded.seed[1:]
+        begins = [p for p in _places(ends, request) if across == 0 and begun(surface, p, near) is not None]
+        if not begins:
+            raise UsageError("no place of its profile is regular where its singular lines could be followed from")
+        places = [q for profile in begins for q in edges(surface, profile, near)]
+    elif len(surface.parameters) > 3:
+        raise UsageError("its flank has more than one equation beside it")
+    else:
+        ends |= {"along_first": 2.0 * begin - end, "along_last": 2.0 * end - begin}
+        places = [*_singular(surface, ends, replace(request, axial=())), *_at_ends(surface, ends)]
+    limits = (_limit(drive, name, surface, q, ends["middle"]) for q in places)
+    return [limit for limit, q in zip(limits, places, strict=True) if _is_of_tooth(surface, q)]
+
+
+def _at_ends(surface, ends):
+    """Singular places at the ends of the profile."""
+    samples = np.linspace(ends["along_first"], ends["along_last"], SAMPLES)
+    for profile in (ends["first"], ends["last"]):
+        for along in zeros(lambda along, at=profile: _on_line(surface, along, np.full_like(along, at)), samples):
+            yield np.array([profile, along])
+
+
+def _is_of_tooth(surface, q):
+    """Whether a place is within the limits of a flank across the tooth: beyond its tip nothing is cut."""
+    margins = surface([q]).margins.items()
+    return all(not values[0] < -AT_LIMIT * max(1.0, abs(values[0])) for event, values in margins if event != "face")
 
 
 def search_range(drive, name):
@@ -51,8 +121,7 @@ def _on_surface(drive, name, request):
 def _singular(surface, ends, request):
     """Parameters of singular points."""
     if len(surface.parameters) == 3:
-        places = np.union1d(np.linspace(ends["first"], ends["last"], request.grid), ends["middle"])
-        for profile in places:
+        for profile in _places(ends, request):
             yield from edges(surface, profile)
     elif request.axial or "along_first" not in ends:
         for z in request.axial or sections_of_face(surface, ends["middle"], request.grid):
@@ -64,6 +133,11 @@ def _singular(surface, ends, request):
         for along in np.linspace(ends["along_first"], ends["along_last"], lines):
             for profile in zeros(partial(_on_line, surface, along), samples):
                 yield np.array([profile, along])
+
+
+def _places(ends, request):
+    """Places of the profile."""
+    return np.union1d(np.linspace(ends["first"], ends["last"], request.grid), ends["middle"])
 
 
 def _on_line(surface, along, profile):
@@ -104,11 +178,12 @@ def at_section(surface, profile, sections):
 
 def _limit(drive, name, surface, q, middle):
     at = surface([q])
-    place = drive.function(f"undercut_place_{name}")(*q)
+    place = drive.function(f"undercut_place_{name}")(*q) if has(drive, f"undercut_place_{name}") else {}
     inside = place.pop("inside", 1.0)
     at_middle = surface([[middle, *q[1:]]]).margins
     sizes = {event: max(1.0, abs(np.nan_to_num(values[0]))) for event, values in at_middle.items()}
     within = all(not values[0] < -AT_LIMIT * sizes[event] for event, values in at.margins.items())
     named = dict(zip(surface.parameters, map(float, q), strict=True))
-    extra = {f"{key}_mm": float(value) for key, value in place.items()}
+    of_tool = {"radius": "tool_radius", "axial": "tool_axial"}  # beside those of the member
+    extra = {f"{of_tool.get(key, key)}_mm": float(value) for key, value in place.items()}
     return SurfaceLimit(name, at.points[0], named, bool(within and not inside < 0.0), extra)

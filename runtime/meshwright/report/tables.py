@@ -111,13 +111,15 @@ def _stated(heading, rows):
 
 
 def _prefixes(analysis):
-    """The first word of the keys of each member: that of its number of teeth."""
+    """The first word of the keys of each member: that of its number of teeth, whatever they are called; of a wheel
+    whose number no key counts, its own.
+    """
     design = analysis.drive.design
     pinion = design.description["pinion_teeth"]
-    counted = [p["key"] for p in design.description["parameters"] if p["table"] == "design"]
-    counted = [key for key in counted if key.rpartition("_")[2] in ("teeth", "threads") and key != pinion]
-    wheel = next(key for key in counted if abs(round(design.value(key))) == analysis.teeth["wheel"])
-    return {"pinion": pinion.partition("_")[0], "wheel": wheel.partition("_")[0]}
+    counted = [p["key"] for p in design.description["parameters"] if p["table"] == "design" and p["integer"]]
+    wheel = [key for key in counted if key != pinion and abs(design.value(key)) == analysis.teeth["wheel"]]
+    wheel.sort(key=lambda key: key.rpartition("_")[2] not in ("teeth", "threads"))
+    return {"pinion": pinion.partition("_")[0], "wheel": (wheel or ["wheel"])[0].partition("_")[0]}
 
 
 def _design(design):

@@ -120,7 +120,10 @@ def _texts(family, checked, symbols):
             texts.setdefault(spec["component"], {})[spec["attribute"]] = Text(spec, shown)
     for spec in family.exchange["words"]:
         word = words_of(family, checked)[spec["key"]]
-        texts.setdefault(spec["component"], {})[spec["attribute"]] = Text(spec, spec["words"][word])
+        if word in spec["words"]:
+            texts.setdefault(spec["component"], {})[spec["attribute"]] = Text(spec, spec["words"][word])
+        else:
+            refused.append((spec, f"REXS has no word for {word!r}: it has those for {', '.join(spec['words'])}"))
     return texts, refused
 
 

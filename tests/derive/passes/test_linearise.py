@@ -1,5 +1,7 @@
 """The sparse tangent system eliminates to the Jacobian; an angle that several unknowns turn is a variable."""
 
+import random
+
 import pytest
 import sympy as sp
 
@@ -50,3 +52,19 @@ def test_of_a_negative_solution_the_positive_is_held():
     assert tape.nodes[solution].op == "neg"
     assert linear.variables == 1
     assert values(tape, jacobian(tape, linear)) == [pytest.approx([float(e) for e in exact.row(k)]) for k in range(2)]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_solution_whose_product_is_rearranged_gives_the_same_jacobian(seed):
+    """w = −n/d from w·d + n = 0, where n and d share factors: where these cancel, the equation reads n for w."""
+    rng = random.Random(seed)
+    shared = rng.sample([p, x**2 + 5, sp.cos(y) + 3, p + 2], 2)
+    n = rng.choice([x * y + p, sp.sin(x) + y, x - y]) * rng.choice([1, *shared])
+    d = sp.Mul(*shared[: rng.randint(1, 2)])
+    tape, lower, (solution, slope, over) = lowered(-n / d, d, n)
+    equation = tape.add(tape.mul(slope, solution), over)
+    residual = [tape.add(tape.mul(lower(q), solution), lower(sp.cos(q))) for q in (x, y)]
+    linear = linearise(tape, residual, [lower(x), lower(y)], [(solution, equation, slope)])
+    exact = sp.Matrix([sp.cos(q) - q * n / d for q in (x, y)]).jacobian([x, y]).subs(VALUES)
+    found = values(tape, jacobian(tape, linear))
+    assert found == [pytest.approx([float(e) for e in exact.row(k)], rel=1e-12, abs=1e-12) for k in range(2)]

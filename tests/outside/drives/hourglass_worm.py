@@ -133,8 +133,6 @@ def hourglass_worm():
         sizes=(("ratio", T_1 / T_2, "wheel turns per worm turn"),),
         instant=phi_1,
         error=error,
-        ratio=ratio,
-        wheel_angle=phi_2,
         pinion=worm,
         wheel=wheel,
         unknowns=tuple(Unknown(q) for q in (w_1, theta, w_2, u_2, error)),

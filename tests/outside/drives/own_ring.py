@@ -226,8 +226,6 @@ def own_ring():
         sizes=(("ratio", PINION.teeth.symbol / WHEEL.teeth.symbol, "wheel turns per pinion turn"),),
         instant=phi_1,
         error=error,
-        ratio=ratio,
-        wheel_angle=phi_2,
         pinion=pinion,
         wheel=wheel,
         regions=tuple(_region(tooth) for tooth in teeth),
