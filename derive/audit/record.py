@@ -23,6 +23,7 @@ CHAPTERS = {
     "cylindrical_worm": "identities.cylindrical_worm",
     "spherical_gears": "identities.spherical",
     "cylindrical_gears": "identities.cylindrical_gears",
+    "internal_gears": "identities.internal_gears",
     "face_worm": "identities.face_worm",
     "bevel": "identities.bevel",
 }

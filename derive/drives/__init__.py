@@ -6,7 +6,7 @@ A module offers ``catalogue()``: name → function that builds the drive.
 from functools import cache
 from importlib import import_module
 
-FAMILIES = ("cylindrical_worm", "spherical", "cylindrical_gears", "face_worm", "bevel")
+FAMILIES = ("cylindrical_worm", "spherical", "cylindrical_gears", "internal_gears", "face_worm", "bevel")
 
 
 def catalogue(wanted=FAMILIES):

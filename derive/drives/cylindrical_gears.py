@@ -57,7 +57,7 @@ class Tooth:
         return s * sp.pi / (2 * self.gear.teeth.symbol)
 
 
-def _tooth(gear, definitions):
+def rack_cut(gear, definitions):
     """The flank that the rolling rack envelops: the gear turns by −φ while the rack moves by −r φ along y."""
     rack = basic_rack(_rack_body(gear, definitions), definitions)
     surface, phi = _rolled(rack.cutter, gear, f"phi_gen_{gear.name}")
@@ -109,10 +109,10 @@ def cylindrical_gears():
     ratio = definitions.let("ratio", PINION.teeth.symbol / WHEEL.teeth.symbol, "z1/z2")
     phi_2 = ratio * phi_1 + error
 
-    teeth = pinion_tooth, wheel_tooth = _tooth(PINION, definitions), _tooth(WHEEL, definitions)
+    teeth = pinion_tooth, wheel_tooth = rack_cut(PINION, definitions), rack_cut(WHEEL, definitions)
     mounting = translation(x=A + dA) @ Rx(-(Sigma + dh)) @ Ry(dv) @ translation(z=da)
-    pinion = _body(pinion_tooth, Rz(phi_1 - pinion_tooth.half_pitch))
-    wheel = _body(wheel_tooth, mounting @ half_turn @ Rz(-phi_2 - wheel_tooth.half_pitch))
+    pinion = tooth_body(pinion_tooth, Rz(phi_1 - pinion_tooth.half_pitch))
+    wheel = tooth_body(wheel_tooth, mounting @ half_turn @ Rz(-phi_2 - wheel_tooth.half_pitch))
     return Drive(
         name="cylindrical_gears",
         family="cylindrical-gears",
@@ -120,7 +120,7 @@ def cylindrical_gears():
         parameters=k.PARAMETERS,
         rules=k.RULES,
         systems=(_zero_backlash(),),
-        guards=(*_pair_guards(), *(g for tooth in teeth for g in _guards(tooth))),
+        guards=(*_pair_guards(), *(g for tooth in teeth for g in tooth_guards(tooth))),
         sizes=_sizes(teeth),
         instant=phi_1,
         error=error,
@@ -129,7 +129,7 @@ def cylindrical_gears():
         pinion=pinion,
         wheel=wheel,
         regions=tuple(Region(t.gear.name, "fillet", t.fillet, s, fillet_margins(t, alpha), "axial") for t in teeth),
-        unknowns=(*_unknowns(pinion_tooth), *_unknowns(wheel_tooth), Unknown(error)),
+        unknowns=(*tooth_unknowns(pinion_tooth), *tooth_unknowns(wheel_tooth), Unknown(error)),
         residual=contact(pinion.placed, wheel.placed),
         definitions=definitions,
         start=_start(teeth, phi_1, phi_2, error, definitions),
@@ -139,7 +139,7 @@ def cylindrical_gears():
         pinion_teeth=PINION.teeth.key,
         loading=Loading(pairs=3, torque_on="pinion"),
         exchange=EXCHANGE,
-        functions=tuple(function for tooth in teeth for function in (*_undercut(tooth), _solid(tooth))),
+        functions=tuple(function for tooth in teeth for function in (*tooth_undercut(tooth), tooth_solid(tooth))),
         least_teeth={
             g.name: LeastTeeth(g.teeth.key, (g.tip_relief.radius.key, g.root_relief.radius.key))
             for g in (PINION, WHEEL)
@@ -153,7 +153,7 @@ def cylindrical_gears():
     )
 
 
-def _undercut(tooth):
+def tooth_undercut(tooth):
     """Undercut is sought from far beyond the start of the involute, on the other side of the axis, to the tip."""
     gear = tooth.gear
     start, end = k.EDGE_START, gear.edge_end
@@ -161,19 +161,19 @@ def _undercut(tooth):
     return undercut(tooth, tooth.rack.along, "rack", " from its datum line", ends)
 
 
-def _solid(tooth):
+def tooth_solid(tooth):
     """A modified flank meets the tip near the end of the edge, not far beyond it."""
     gear = tooth.gear
     root_radius = gear.reference_radius + gear.shift - k.dedendum.symbol
     return solid_teeth(gear, m, alpha, root_radius, (k.EDGE_START, gear.edge_end + m / 4))
 
 
-def _body(tooth, motion):
+def tooth_body(tooth, motion):
     rack = tooth.rack
     return body(tooth, motion, {rack.along: tooth.gear.edge_end, rack.axial: sp.Integer(0)}, _margins(tooth))
 
 
-def _unknowns(tooth):
+def tooth_unknowns(tooth):
     return Unknown(tooth.rack.along, m), Unknown(tooth.rack.axial, tooth.gear.face_width.symbol / 3)
 
 
@@ -255,26 +255,26 @@ def _start(teeth, phi_1, phi_2, error, definitions):
     angle = let("phi", s * wheel_turn, "wheel angle", "rad")
     pinion, wheel = teeth
     generation = (
-        s * (turns[0] - _at_edge(PINION)) - phi_1 + pinion.half_pitch,
-        s * (turns[1] - _at_edge(WHEEL)) + angle + wheel.half_pitch,
+        s * (turns[0] - at_edge(PINION)) - phi_1 + pinion.half_pitch,
+        s * (turns[1] - at_edge(WHEEL)) + angle + wheel.half_pitch,
     )
-    z_1, z_2 = _crossing(n, lengths[0] + PINION.shift * sp.sin(alpha), distance, _onto_edge(pinion, generation[0]), let)
+    z_1, z_2 = _crossing(n, lengths[0] + PINION.shift * sp.sin(alpha), distance, onto_edge(pinion, generation[0]), let)
     return System(
         name="start",
         definitions=definitions,
         unknowns=(),
         residual=(),
         outputs={
-            pinion.rack.along: _edge_place(pinion, generation[0], z_1),
+            pinion.rack.along: edge_place(pinion, generation[0], z_1),
             pinion.rack.axial: z_1,
-            wheel.rack.along: _edge_place(wheel, generation[1], z_2),
+            wheel.rack.along: edge_place(wheel, generation[1], z_2),
             wheel.rack.axial: z_2,
             error: angle - replaced(phi_2, {error: sp.Integer(0)}),
         },
     )
 
 
-def _at_edge(gear):
+def at_edge(gear):
     """Angle of the rack's normal in the transverse section."""
     return v.arc(sp.Integer(1), gear.tan_transverse)
 
@@ -306,15 +306,15 @@ def _crossing(n, length, distance, at_line, let):
     return z_1, z_2
 
 
-def _onto_edge(tooth, generation):
+def onto_edge(tooth, generation):
     """The place across the face nearest to its middle that the edge cuts at this turn in generation, spur gears: 0."""
-    middle = _edge_place(tooth, generation, sp.Integer(0))
-    slope = _edge_place(tooth, generation, sp.Integer(1)) - middle
+    middle = edge_place(tooth, generation, sp.Integer(0))
+    slope = edge_place(tooth, generation, sp.Integer(1)) - middle
     beyond = excess(k.EDGE_START - middle) - excess(middle - tooth.gear.edge_end)
     return beyond * slope / (slope**2 + is_zero(slope))
 
 
-def _edge_place(tooth, generation, axial):
+def edge_place(tooth, generation, axial):
     """The place on the straight edge that cuts at this turn in generation: its equation of meshing, linear in it."""
     gear, cosine = tooth.gear, sp.cos(tooth.gear.helix_angle.symbol)
     cotangent = sp.cos(alpha) * cosine / sp.sin(alpha)
@@ -343,6 +343,13 @@ def _pair_guards():
             "no common normal: the helix angles differ too much from the shaft angle",
             (*helix, k.pressure_angle.key),
         ),
+        *rack_guards(),
+    )
+
+
+def rack_guards():
+    """What the basic rack must be."""
+    return (
         Guard(
             k.full_rounding(),
             "the basic rack is so deep that it ends in a point",
@@ -361,7 +368,7 @@ def _pair_guards():
     )
 
 
-def _guards(tooth):
+def tooth_guards(tooth):
     gear, name = tooth.gear, tooth.gear.name
     r_a = gear.tip_radius
     teeth = (gear.teeth.key, gear.profile_shift.key, k.module.key)
@@ -391,26 +398,30 @@ def _sizes(teeth):
          "complement of the angle between common normal and common perpendicular"),
         ("transverse_working_pressure_angle_deg", parallel_angle, "transverse working pressure angle, parallel axes"),
     ]
-    for tooth in teeth:
-        gear, name, beta = tooth.gear, tooth.gear.name, tooth.gear.helix_angle.symbol
-        sizes += [
-            (f"{name}_transverse_pressure_angle_deg", gear.transverse_pressure_angle,
-             f"transverse pressure angle of the {name}"),
-            (f"{name}_base_helix_angle_deg", sp.asin(gear.sin_base_helix), f"base helix angle of the {name}"),
-            (f"{name}_reference_radius_mm", gear.reference_radius, f"reference radius of the {name}"),
-            (f"{name}_base_radius_mm", gear.base_radius, f"base radius of the {name}"),
-            (f"{name}_limit_radius_mm", v.radius(gear.base_radius, gear.rolling_radius(k.EDGE_START)),
-             f"start of the involute of the {name}, without undercut"),
-            (f"{name}_root_radius_mm", gear.reference_radius + gear.shift - k.dedendum.symbol,
-             f"root radius of the {name}"),
-            (f"{name}_overlap_ratio", gear.face_width.symbol * sp.Abs(sp.sin(beta)) / (sp.pi * m),
-             f"overlap ratio of the {name}'s face"),
-            (f"{name}_least_teeth_without_undercut", _least_teeth(gear), f"least teeth without undercut, {name}"),
-            (f"{name}_edge_start_mm", k.EDGE_START, f"edge of the rack at the root of the {name}"),
-            (f"{name}_edge_end_mm", gear.edge_end, f"edge of the rack at the tip of the {name}"),
-        ]  # fmt: skip
+    sizes += [size for tooth in teeth for size in tooth_sizes(tooth)]
     meaning = "wheel turns per pinion turn z1/z2, the inverse of the gear ratio"
     return (*sizes, ("ratio", PINION.teeth.symbol / WHEEL.teeth.symbol, meaning))
+
+
+def tooth_sizes(tooth):
+    """The sizes of one member."""
+    gear, name, beta = tooth.gear, tooth.gear.name, tooth.gear.helix_angle.symbol
+    return (
+        (f"{name}_transverse_pressure_angle_deg", gear.transverse_pressure_angle,
+         f"transverse pressure angle of the {name}"),
+        (f"{name}_base_helix_angle_deg", sp.asin(gear.sin_base_helix), f"base helix angle of the {name}"),
+        (f"{name}_reference_radius_mm", gear.reference_radius, f"reference radius of the {name}"),
+        (f"{name}_base_radius_mm", gear.base_radius, f"base radius of the {name}"),
+        (f"{name}_limit_radius_mm", v.radius(gear.base_radius, gear.rolling_radius(k.EDGE_START)),
+         f"start of the involute of the {name}, without undercut"),
+        (f"{name}_root_radius_mm", gear.reference_radius + gear.shift - k.dedendum.symbol,
+         f"root radius of the {name}"),
+        (f"{name}_overlap_ratio", gear.face_width.symbol * sp.Abs(sp.sin(beta)) / (sp.pi * m),
+         f"overlap ratio of the {name}'s face"),
+        (f"{name}_least_teeth_without_undercut", _least_teeth(gear), f"least teeth without undercut, {name}"),
+        (f"{name}_edge_start_mm", k.EDGE_START, f"edge of the rack at the root of the {name}"),
+        (f"{name}_edge_end_mm", gear.edge_end, f"edge of the rack at the tip of the {name}"),
+    )  # fmt: skip
 
 
 def _least_teeth(gear):

@@ -10,7 +10,7 @@ import sympy as sp
 from derive.drives import cylindrical_gears_keys as k
 from derive.drives.cylindrical_gears_keys import PINION, POSITIVE, RULES, WHEEL
 from derive.language.choice import only_where_zero
-from derive.language.drawing import Assumed, Check, Drawing, Relation, Root, relation
+from derive.language.drawing import Assumed, Check, Drawing, Elsewhere, Relation, Root, relation
 from derive.language.replace import replaced
 from derive.language.symbols import Guard, Quantity, Table, parameter
 
@@ -59,12 +59,14 @@ def _parallel(value):
 
 
 class Member:
-    """The sizes of one member, their relations, defaults and checks."""
+    """The sizes of one member, their relations, defaults and checks; ``side`` is −1 for a ring gear."""
+
+    side = 1
 
     def __init__(self, gear):
         self.gear, self.name = gear, gear.name
         self.sizes = []
-        x, z = gear.profile_shift.symbol, gear.teeth.symbol
+        side, x, z = self.side, gear.profile_shift.symbol, gear.number
         beta, b, r_a = gear.helix_angle.symbol, gear.face_width.symbol, gear.tip_radius.symbol
         allowance = gear.thickness_allowance.symbol
         self.alpha_t = alpha_t = self.size("transverse_pressure_angle_deg", "alpha_t", "transverse pressure angle")
@@ -72,7 +74,6 @@ class Member:
         self.r_b = r_b = self.size("base_radius_mm", "r_b", "base radius")
         self.beta_b = beta_b = self.size("base_helix_angle_deg", "beta_b", "base helix angle")
         self.r_F = r_start = self.size("limit_radius_mm", "r_F", "start of the involute")
-        z_lim = self.size("least_teeth_without_undercut", "z_lim", "least teeth without undercut")
         self.x_E = x_cut = self.size(
             "generating_profile_shift_coefficient", "x_E", "generating profile shift coefficient"
         )
@@ -95,52 +96,73 @@ class Member:
         psi = thickness / z_v
         odd = sp.sin(sp.pi * z / 2) ** 2  # 1 for an odd number of teeth, 0 for an even one
         across = 1 - odd * (1 - sp.cos(sp.pi / (2 * z)))
-        ball_involute = inv(alpha_t) + ball / (m * z * sp.cos(alpha)) - (sp.pi - thickness) / z
+        ball_involute = inv(alpha_t) + side * (ball / (m * z * sp.cos(alpha)) - (sp.pi - thickness) / z)
         alpha_a = sp.acos(r_b / r_a)
         at = Quantity("at", "rad", "pressure angle sought")
         self.relations = (
             relation(allowance, 2 * m * sp.tan(alpha) * (x_cut - x), x_cut),
             relation(allowance, (upper + lower) / 2, upper, lower),
             relation(s_n, m * thickness, x_cut),
-            relation(d_f, 2 * (r + x_cut * m - k.dedendum.symbol), k.dedendum.symbol),
+            self.root(d_f, r),
             relation(d_w, 2 * r_b / sp.cos(working_angle.symbol)),
             relation(d_form, 2 * r_start),
             relation(
                 span, m * sp.cos(alpha) * (sp.pi * (span_teeth - sp.Rational(1, 2)) + z * inv(alpha_t)
-                                           + 2 * x_cut * sp.tan(alpha)), x_cut,
+                                           + side * 2 * x_cut * sp.tan(alpha)), x_cut,
             ),
-            relation(over, 2 * r_b * across / sp.cos(alpha_ball) + ball,
-                     **{alpha_ball.name: sp.acos(2 * r_b * across / (over - ball))}),
+            relation(over, 2 * r_b * across / sp.cos(alpha_ball) + side * ball,
+                     **{alpha_ball.name: sp.acos(2 * r_b * across / (over - side * ball))}),
             Relation(
                 alpha_ball, Root(at, inv(at) - ball_involute, sp.Integer(0), STEEPEST),
-                {x_cut: (inv(alpha_ball) - replaced(ball_involute, {x_cut: sp.Integer(0)})) * z / (2 * sp.tan(alpha))},
+                {x_cut: side * (inv(alpha_ball) - replaced(ball_involute, {x_cut: sp.Integer(0)})) * z
+                 / (2 * sp.tan(alpha))},
             ),
             relation(chord, z_v * m * sp.sin(psi)),
-            relation(height, z_v * m * (1 - sp.cos(psi)) / 2 + r_a - r),
+            relation(height, side * (z_v * m * (1 - sp.cos(psi)) / 2 + r_a - r)),
             relation(
                 s_an, 2 * r_a * sp.cos(sp.atan(sp.tan(beta) * r_a / r))
-                * (thickness / z + inv(alpha_t) - inv(alpha_a)),
+                * (thickness / z + side * (inv(alpha_t) - inv(alpha_a))),
             ),
             *self._tolerances(2 * r, b),
         )  # fmt: skip
-        touched = sp.sqrt((r + x * m) ** 2 - r_b**2) / sp.cos(beta_b)
+        touched = sp.sqrt((r + side * x * m) ** 2 - r_b**2) / sp.cos(beta_b)
         spanned = sp.Rational(1, 2) + 2 * touched / (sp.pi * m * sp.cos(alpha)) - (
-            z * inv(alpha_t) + 2 * x * sp.tan(alpha)
+            z * inv(alpha_t) + side * 2 * x * sp.tan(alpha)
         ) / sp.pi
         self.measured = (s_n, span, over, upper, lower)
         self.inspected = (
             Assumed(span_teeth, spanned, "touches near the middle of the teeth", unless=(span,)),
             Assumed(ball, BALL * m, "1.7 modules: touches near the reference circle", unless=(over,)),
         )
-        at_ball = sp.sqrt(r_b**2 + (r_b * sp.tan(alpha_ball) - ball * sp.cos(beta_b) / 2) ** 2)
+        at_ball = sp.sqrt(r_b**2 + (r_b * sp.tan(alpha_ball) - side * ball * sp.cos(beta_b) / 2) ** 2)
         at_span = sp.sqrt(r_b**2 + (span * sp.cos(beta_b) / 2) ** 2)
         self.checks = (
-            Check(f"undercut_{self.name}", z - z_lim),
+            *self.undercut(),
             *(
-                Check(f"{self.name}_{what}", sp.Min(radius - r_start, r_a - radius), occurs=False)
-                for what, radius in (("span", at_span), ("over_balls", at_ball))
+                Check(
+                    f"{self.name}_{what}", sp.Min(side * (radius - r_start), side * (r_a - radius)),
+                    f"{touching} of the {self.name} between start of involute and tip, else {remedy}; margin in mm",
+                    occurs=False,
+                )
+                for what, radius, touching, remedy in (
+                    ("span", at_span, "the span touches the flanks", "span other teeth"),
+                    ("over_balls", at_ball, "the measuring balls touch the flanks", "take other balls"),
+                )
             ),
         )
+
+    def root(self, diameter, r):
+        """The relation of the root ``diameter``: one rack cuts all, at the generating profile shift."""
+        return relation(diameter, 2 * (r + self.x_E * m - k.dedendum.symbol), k.dedendum.symbol)
+
+    def undercut(self):
+        """The check against the least number of teeth."""
+        least = self.size("least_teeth_without_undercut", "z_lim", "least teeth without undercut")
+        meaning = (
+            f"the rack cuts into the involute of the {self.name}; take more teeth, profile shift or pressure angle; "
+            "margin in teeth"
+        )
+        return (Check(f"undercut_{self.name}", self.gear.teeth.symbol - least, meaning),)
 
     def size(self, key, symbol, meaning, **domain):
         """A size of this member, as a symbol."""
@@ -180,9 +202,20 @@ class Member:
         )  # fmt: skip
 
 
-def _pair(pinion, wheel):
-    """Relations of the pair; those of backlash and contact ratio on parallel axes alone."""
-    p, w = pinion, wheel
+def common():
+    """Relations of module and helix angle, whatever the mate."""
+    beta = helix.symbol
+    return (
+        relation(m, transverse_module.symbol * sp.cos(beta), transverse_module.symbol,
+                 **{beta.name: sp.acos(m / transverse_module.symbol)}),
+        Relation(m, 1 / pitch.symbol, {pitch.symbol: 1 / m}),
+        relation(beta, sp.Abs(PINION.helix_angle.symbol)),
+        relation(PINION.helix_angle.symbol, hand.symbol * beta),
+    )  # fmt: skip
+
+
+def pair(p, w, path, on_axes=lambda value: value):
+    """Relations of a pair; ``path`` is the length of its path of contact, ``on_axes`` keeps what its axes have."""
     x_1, x_2 = (member.gear.profile_shift.symbol for member in (p, w))
     alpha_w, j_bn, j_wt, total = (
         q.symbol for q in (working_angle, normal_backlash, circumferential_backlash, shift_sum)
@@ -190,20 +223,12 @@ def _pair(pinion, wheel):
     upper = p.upper + w.upper
     lower = p.lower + w.lower
     alpha_t = p.alpha_t
-    opened = m * sp.cos(alpha) * (z_1 + z_2) * (inv(alpha_w) - inv(alpha_t))
+    opened = m * sp.cos(alpha) * (z_1 + w.gear.teeth.symbol) * (inv(alpha_w) - inv(alpha_t))
     nominal = opened - 2 * m * sp.sin(alpha) * (x_1 + x_2)
-    rolled = [sp.sqrt(member.gear.tip_radius.symbol**2 - member.r_b**2) for member in (p, w)]
-    first = [sp.sqrt(member.r_F**2 - member.r_b**2) for member in (p, w)]
-    whole = a * sp.sin(alpha_w)
-    path = sp.Min(rolled[0], whole - first[1]) - sp.Max(first[0], whole - rolled[1])
     beta = helix.symbol
-    common = sp.Min(p.gear.face_width.symbol, w.gear.face_width.symbol)
+    width = sp.Min(p.gear.face_width.symbol, w.gear.face_width.symbol)
     return (
-        relation(m, transverse_module.symbol * sp.cos(beta), transverse_module.symbol,
-                 **{beta.name: sp.acos(m / transverse_module.symbol)}),
-        Relation(m, 1 / pitch.symbol, {pitch.symbol: 1 / m}),
-        relation(beta, sp.Abs(p.gear.helix_angle.symbol)),
-        relation(p.gear.helix_angle.symbol, hand.symbol * beta),
+        *common(),
         relation(total, p.x_E + w.x_E, p.x_E, w.x_E),
         relation(j_bn, opened - 2 * m * sp.sin(alpha) * total, total),
         relation(j_bn, (least_backlash.symbol + most_backlash.symbol) / 2, least_backlash.symbol, most_backlash.symbol),
@@ -213,43 +238,56 @@ def _pair(pinion, wheel):
         relation(least_backlash.symbol, nominal - sp.cos(alpha) * upper),
         relation(most_backlash.symbol, nominal - sp.cos(alpha) * lower),
         relation(transverse_ratio.symbol, path * sp.cos(beta) / (sp.pi * m * sp.cos(alpha_t))),
-        relation(overlap_ratio.symbol, _parallel(common * sp.sin(beta) / (sp.pi * m))),
+        relation(overlap_ratio.symbol, on_axes(width * sp.sin(beta) / (sp.pi * m))),
         relation(total_ratio.symbol, transverse_ratio.symbol + overlap_ratio.symbol),
+        _without_backlash(x_1 + x_2, z_1 + w.gear.teeth.symbol),
     )  # fmt: skip
 
 
-def _without_backlash():
-    """The pressure angle at which the nominal profile shifts leave no backlash."""
+def rolled(member, radius):
+    """Distance along the line of action from the base circle of a member to a radius."""
+    return sp.sqrt(radius**2 - member.r_b**2)
+
+
+def _path(p, w):
+    """Length of the path of contact between the members' own limits."""
+    first, last = ([rolled(member, radius) for member, radius in zip((p, w), radii, strict=True)]
+                   for radii in ((p.r_F, w.r_F), (p.gear.tip_radius.symbol, w.gear.tip_radius.symbol)))  # fmt: skip
+    whole = a * sp.sin(working_angle.symbol)
+    return sp.Min(last[0], whole - first[1]) - sp.Max(first[0], whole - last[1])
+
+
+def _without_backlash(shifts, teeth):
+    """The pressure angle at which the sum of the nominal profile ``shifts`` leaves no backlash."""
     at = Quantity("at", "rad", "pressure angle sought")
-    opened = inv(at) - inv(PINION.transverse_pressure_angle)
-    residual = opened - 2 * (PINION.profile_shift.symbol + WHEEL.profile_shift.symbol) * sp.tan(alpha) / (z_1 + z_2)
+    residual = inv(at) - inv(PINION.transverse_pressure_angle) - 2 * shifts * sp.tan(alpha) / teeth
     return Relation(tight_angle.symbol, Root(at, residual, sp.Integer(0), STEEPEST))
 
 
-def _defaults(members):
+def defaults(p, w, axes, wheel_kind, bases, rack, on_axes=lambda value: value):
     """What is assumed: axes and helix; the shift that meets a distance with the backlash given, else none; the distance
-    without backlash; what backlash is left, half on each member; then none, and the standard basic rack.
+    without backlash; what backlash is left, half on each member; then none, and the tools (``rack``).
+
+    ``bases`` is the distance of the axes times the cosine of the working pressure angle.
     """
-    p, w = members
-    x_1, x_2 = PINION.profile_shift.symbol, WHEEL.profile_shift.symbol
-    bases = PINION.base_radius + WHEEL.base_radius
-    shifts = (z_1 + z_2) * (inv(sp.acos(bases / a)) - inv(PINION.transverse_pressure_angle)) / (2 * sp.tan(alpha))
+    x_1, x_2 = (member.gear.profile_shift.symbol for member in (p, w))
+    teeth = z_1 + w.gear.teeth.symbol
+    shifts = teeth * (inv(sp.acos(bases / a)) - inv(PINION.transverse_pressure_angle)) / (2 * sp.tan(alpha))
     met = "meets the centre distance: the thickness allowances make the backlash"
     halves = m * sp.tan(alpha) * (shift_sum.symbol - x_1 - x_2)
-    allowances = [member.gear.thickness_allowance.symbol for member in members]
-    axes, rack = RULES[:4], RULES[4:6]
+    allowances = [member.gear.thickness_allowance.symbol for member in (p, w)]
     return (
         Assumed(hand.symbol, sp.sign(PINION.helix_angle.symbol), "the sign of the helix angle"),
         Assumed(hand.symbol, sp.Integer(1), "right hand, where nothing says another", needs=(helix.symbol,)),
         *axes,
-        Assumed(kind.symbol, sp.Integer(1), "both gears have outer teeth"),
+        wheel_kind,
         *(Assumed(q, shifts - other, met, needs=(normal_backlash.symbol,)) for q, other in ((x_2, x_1), (x_1, x_2))),
         *(Assumed(q, sp.Integer(0), "no profile shift") for q in (x_1, x_2)),
-        Assumed(a, _parallel(bases / sp.cos(tight_angle.symbol)), "no backlash at the nominal profile shifts"),
+        Assumed(a, on_axes(bases / sp.cos(tight_angle.symbol)), "no backlash at the nominal profile shifts"),
         *(Assumed(q, halves, "half of the backlash") for q in allowances),
         *(
             Assumed(q, sp.Integer(0), "no allowance", unless=member.measured)
-            for q, member in zip(allowances, members, strict=True)
+            for q, member in zip(allowances, (p, w), strict=True)
         ),
         *rack,
         *p.inspected,
@@ -258,24 +296,38 @@ def _defaults(members):
     )
 
 
+PAIR = (
+    transverse_module, pitch, helix, hand, kind, working_angle, tight_angle, shift_sum, normal_backlash,
+    circumferential_backlash, radial_backlash, least_backlash, most_backlash, wheel_backlash, transverse_ratio,
+    overlap_ratio, total_ratio,
+)  # fmt: skip
+
+
+#: A rack is the limit of wheels of ever more teeth: over a profile 2 modules high the involute of z2 teeth bends from a
+#: straight edge by less than 4/z2 modules.
+NO_RACK = Guard(
+    sp.Abs(kind.symbol) - sp.Rational(1, 2),
+    "no family has a rack, as members turn and none travels; its limit is a wheel of very many teeth: of 10000 it is "
+    "as straight as a rack to 0.0004 modules",
+    (kind.key,),
+)
+
+
 def drawing():
     """The drawing of the family."""
     members = Member(PINION), Member(WHEEL)
-    pair = (
-        transverse_module, pitch, helix, hand, kind, working_angle, tight_angle, shift_sum, normal_backlash,
-        circumferential_backlash, radial_backlash, least_backlash, most_backlash, wheel_backlash, transverse_ratio,
-        overlap_ratio, total_ratio,
-    )  # fmt: skip
-    absent = (
-        "no drive of this family has an internal gear or a rack; derive one of your own (`python -m derive FILE.py`)"
-    )
+    bases = PINION.base_radius + WHEEL.base_radius
+    outer = Assumed(kind.symbol, sp.Integer(1), "both gears have outer teeth")
     return Drawing(
-        sizes=(*pair, *(size for member in members for size in member.sizes)),
-        relations=(*_pair(*members), _without_backlash(), *(found for member in members for found in member.relations)),
-        defaults=_defaults(members),
-        checks=tuple(check for member in members for check in member.checks),
-        guards=(
-            Guard(z_2, absent, (WHEEL.teeth.key,)),
-            Guard(kind.symbol - sp.Rational(1, 2), absent, (kind.key,)),
+        sizes=(*PAIR, *(size for member in members for size in member.sizes)),
+        relations=(
+            *pair(*members, _path(*members), _parallel), *(found for member in members for found in member.relations),
         ),
-    )
+        defaults=defaults(*members, RULES[:4], outer, bases, RULES[4:6], _parallel),
+        checks=tuple(check for member in members for check in member.checks),
+        guards=(NO_RACK,),
+        elsewhere=(
+            Elsewhere(-z_2, "internal-gears", "a number of teeth of ring gears"),
+            Elsewhere(-sp.Rational(1, 2) - kind.symbol, "internal-gears", "a ring gear"),
+        ),
+    )  # fmt: skip

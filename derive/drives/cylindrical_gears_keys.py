@@ -121,6 +121,11 @@ class Gear:
         )  # fmt: skip
 
     @property
+    def number(self):
+        """Teeth all around."""
+        return self.teeth.symbol
+
+    @property
     def tan_transverse(self):
         """tan α_t."""
         return sp.tan(pressure_angle.symbol) / sp.cos(self.helix_angle.symbol)

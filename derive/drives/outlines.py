@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from derive.language.choice import only_where_zero, unit_step
+from derive.language.choice import only_where_within, only_where_zero, unit_step
 from derive.language.outline import Outline, Suggestion, a, m, z_1, z_2
 from derive.language.tool import suggestions
 from derive.tools.worm_body import SHEET_USED
@@ -17,6 +17,9 @@ from derive.tools.worm_body import SHEET_USED
 def _clipped(value, least, most):
     return sp.Min(sp.Max(value, least), most)
 
+
+#: Sizes of two drawings that differ by no larger part are one: their last digit is rounded.
+SAME_SIZE = sp.Rational(1, 10**6)
 
 #: Lead angles from which the pressure angle rises, and by how much (deg): G. Niemann, H. Winter, Maschinenelemente III.
 STEEPER = ((15, sp.Rational(5, 2)), (25, sp.Rational(5, 2)), (35, 5))
@@ -60,7 +63,7 @@ def worm(tools):
     distance_arc = replace(
         distance, values=(r_1 + r_2 + x * m,), why="reference radii and a profile shift of half a module", words=arc
     )
-    distance_asked = replace(distance, values=(a,), why="as asked for", decimals=None)
+    distance_asked = replace(distance, values=(a,), why="", decimals=None)
     wheel_shift = Suggestion(
         "", ((distance.symbol - r_1 - r_2) / m,), "profile shift coefficient of the wheel, by the centre distance",
         "x_2", 4, within=(-1, 1),
@@ -68,7 +71,8 @@ def worm(tools):
     A = distance.symbol  # noqa: N806 the centre distance, by its usual letter
     nominal = Suggestion("", (0 * m,), name="A_sn")
     thinned = Suggestion(
-        "design.worm_thickness_allowance_um", (only_where_zero(hob.symbol - r_1, -20 * m / sp.cos(alpha)),),
+        "design.worm_thickness_allowance_um",
+        (only_where_within(SAME_SIZE * r_1, hob.symbol - r_1, -20 * m / sp.cos(alpha)),),
         "0.02 modules of normal backlash, by a thinner thread: an equal hob keeps its line of contact", "A_sn", 1,
     )  # fmt: skip
     cutting = Suggestion(
@@ -78,6 +82,10 @@ def worm(tools):
             A + hob.symbol - r_1,
         ),
         "without backlash; of a thread of nominal thickness deeper, by 0.02 modules of normal backlash", "A_gen", 4,
+    )  # fmt: skip
+    cutting_equal = replace(
+        cutting, values=(only_where_within(SAME_SIZE * r_1, hob.symbol - r_1, A + hob.symbol - r_1),), decimals=None,
+        why="where an equal hob is the worm: contact along a line",
     )  # fmt: skip
     hob_screw = hob.symbol * sp.tan(sp.asin(normal * threads.symbol / (2 * hob.symbol)))
     worm_rolls, hob_rolls = A - r_2, cutting.symbol - r_2
@@ -106,7 +114,7 @@ def worm(tools):
             hob, hob_arc,
             threads,
             nominal, thinned,
-            cutting,
+            cutting, cutting_equal,
             Suggestion(
                 "design.cutting_shaft_angle_deg", (shaft.symbol + swivel * 180 / sp.pi,),
                 "hob and worm have one direction of the thread where they roll on the wheel", decimals=4,
@@ -184,35 +192,63 @@ def spherical():
     )
 
 
+HELIX = Suggestion("design.pinion_helix_angle_deg", (sp.Integer(0),), "spur; positive is right hand", "beta_deg")
+
+
 def cylindrical():
+    """External involute gears on parallel axes."""
+    opposite = Suggestion(
+        "design.wheel_helix_angle_deg", (-HELIX.symbol,), "the opposite hand on parallel axes"
+    )
+    return _involute(z_1 + z_2, 1, "teeth of the pinion : teeth of the wheel", opposite)
+
+
+#: By how many teeth a pinion cutter of 20° that is fed in radially has fewer than its ring gear.
+FEWER_IN_CUTTER = 18
+
+#: Fewest teeth of a pinion cutter with a tip of some width.
+LEAST_IN_CUTTER = 10
+
+
+def internal():
+    """A pinion in a ring gear, whose number of teeth is negative."""
+    cutter = Suggestion(
+        "design.shaper_teeth", (sp.Min(z_1, sp.Max(-z_2 - FEWER_IN_CUTTER, LEAST_IN_CUTTER)),),
+        "those of the pinion, but so many fewer than the ring gear has that the cutter does not trim its tips",
+        whole=True,
+    )  # fmt: skip
+    return _involute(-z_2 - z_1, -1, "teeth of the pinion : teeth of the ring gear, a negative number", cutter)
+
+
+def _involute(teeth, side, z, *mate):
     """Involute gears on parallel axes; a centre distance that is given is met without backlash by profile shift, half
-    of it each (ISO 21771:2007, working transverse pressure angle and sum of profile shift coefficients).
+    of it each (ISO 21771:2007, working transverse pressure angle and sum of profile shift coefficients). ``teeth`` is
+    the sum of the numbers of teeth, without its sign ``side``.
     """
-    helix = Suggestion("design.pinion_helix_angle_deg", (sp.Integer(0),), "spur; positive is right hand", "beta_deg")
     pressure = Suggestion("design.pressure_angle_deg", (sp.Integer(20),), "ISO 53", "alpha_deg")
-    beta, alpha = sp.rad(helix.symbol), sp.rad(pressure.symbol)
-    reference = Suggestion("", (m * (z_1 + z_2) / (2 * sp.cos(beta)),), "reference centre distance", "a_0", 4)
+    beta, alpha = sp.rad(HELIX.symbol), sp.rad(pressure.symbol)
+    reference = Suggestion("", (m * teeth / (2 * sp.cos(beta)),), "reference centre distance", "a_0", 4)
     transverse = sp.atan2(sp.tan(alpha), sp.cos(beta))
-    cosine = m * (z_1 + z_2) * sp.cos(transverse) / (2 * sp.cos(beta) * a)
+    cosine = m * teeth * sp.cos(transverse) / (2 * sp.cos(beta) * a)
     working = sp.atan2(sp.sqrt(1 - cosine**2), cosine)
-    shifts = (z_1 + z_2) * (sp.tan(working) - working - sp.tan(transverse) + transverse) / (2 * sp.tan(alpha))
+    shifts = side * teeth * (sp.tan(working) - working - sp.tan(transverse) + transverse) / (2 * sp.tan(alpha))
     apart = Suggestion(
         "", ((a - reference.symbol) / m,), "centre distance modification coefficient", "y", 4, within=(-1, 2)
     )
     shift = Suggestion("", (shifts,), "sum of the profile shift coefficients, by the centre distance", "x_sum", 4)
     half = "half of what meets the centre distance without backlash"
     return Outline(
-        {"m": "normal module", "z": "teeth of the pinion : teeth of the wheel", "a": "centre distance"},
+        {"m": "normal module", "z": z, "a": "centre distance"},
         {},
         (
             Suggestion("design.normal_module_mm", (m,)),
             pressure,
             Suggestion("design.pinion_teeth", (z_1,), whole=True),
             Suggestion("design.wheel_teeth", (z_2,), whole=True),
-            helix,
-            Suggestion("design.wheel_helix_angle_deg", (-helix.symbol,), "the opposite hand on parallel axes"),
+            HELIX,
+            *mate,
             reference, apart,
-            Suggestion("design.center_distance_mm", (a,), "as asked for; without it: no backlash"),
+            Suggestion("design.center_distance_mm", (a,)),
             shift,
             Suggestion("design.pinion_profile_shift_coefficient", (shift.symbol / 2,), half),
             Suggestion("design.wheel_profile_shift_coefficient", (shift.symbol / 2,), half),

@@ -52,10 +52,14 @@ def _table(drawing, drives):
         "sizes": [metadata.parameter(p) for p in {**{key: size for key, (size, _) in own.items()}, **named}.values()],
         "relations": relations,
         "defaults": list({str(d): d for d in map(_default, (*drawing.defaults, *usual))}.values()),
-        "checks": [{"name": c.name, "occurs": c.occurs, "margin": prefix(c.margin)} for c in drawing.checks],
+        "checks": [
+            {"name": c.name, "meaning": c.meaning, "occurs": c.occurs, "margin": prefix(c.margin)}
+            for c in drawing.checks
+        ],
         "guards": [
             {"positive": prefix(g.positive), "message": g.message, "keys": list(g.keys)} for g in drawing.guards
         ],
+        "elsewhere": [{"positive": prefix(e.positive), "family": e.family, "what": e.what} for e in drawing.elsewhere],
     }  # fmt: skip
 
 

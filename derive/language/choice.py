@@ -36,6 +36,11 @@ def only_where_zero(a: sp.Expr, value: sp.Expr) -> sp.Expr:
     return only_where_not_negative(_NOTHING - a**2, value)
 
 
+def only_where_within(most: sp.Expr, a: sp.Expr, value: sp.Expr) -> sp.Expr:
+    """``value`` where ``a`` is at most ``most`` from 0, else not a number."""
+    return only_where_not_negative(most**2 - a**2, value)
+
+
 def only_where_not_negative(a: sp.Expr, value: sp.Expr) -> sp.Expr:
     """``value`` where ``a`` is not negative, else not a number."""
     return value * sp.sqrt(sp.sign(a))

@@ -70,11 +70,24 @@ class Assumed:
 
 @dataclass(frozen=True)
 class Check:
-    """Something that ``occurs`` where the ``margin`` is negative; or else is possible where it is positive."""
+    """Something that ``occurs`` where the ``margin`` is negative; or else is possible where it is positive.
+
+    ``meaning`` says what, and what may be done about it.
+    """
 
     name: str
     margin: sp.Expr
+    meaning: str = ""
     occurs: bool = True
+
+
+@dataclass(frozen=True)
+class Elsewhere:
+    """Where ``positive`` > 0, an expression of one size, a drawing is of another ``family``, which has ``what``."""
+
+    positive: sp.Expr
+    family: str
+    what: str
 
 
 @dataclass(frozen=True)
@@ -83,7 +96,7 @@ class Drawing:
 
     ``sizes`` are named like keys; one of a drive's own sizes is named here to give it a symbol. ``defaults`` are tried
     in their order, before what completes the drive: of those targets nothing else is assumed. ``guards`` say what no
-    drive of the family is, and what to do instead.
+    drive of the family is, and what to do instead; ``elsewhere`` what another family is for.
     """
 
     sizes: tuple[Parameter, ...]
@@ -91,3 +104,4 @@ class Drawing:
     defaults: tuple[Assumed | Rule, ...]
     checks: tuple[Check, ...] = ()
     guards: tuple[Guard, ...] = ()
+    elsewhere: tuple[Elsewhere, ...] = ()

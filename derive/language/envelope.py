@@ -153,10 +153,29 @@ def explicit_angle(surface: Surface, angle: Quantity, sign: Number | Callable[[s
     return solved.on("derivation/explicit-angle").by(Step.of("solved", parameter=angle, value=turn))
 
 
+def explicit_turn(surface: Surface, angle: Quantity, sign: Number) -> Surface:
+    """Solve the last condition, a·cos + b·sin + c = 0 in ``angle``, for that parameter.
+
+    The result is the direction (cos, sin) ∝ −c (a, b) + ``sign`` √(a² + b² − c²) (−b, a), between −π and π; ``sign`` is
+    1 or −1.
+    """
+    *others, condition = surface.conditions
+    a, b, c = in_turn(condition, angle)
+    half = sign * v.root(a**2 + b**2 - c**2)
+    turn = v.arc(half * a - c * b, -half * b - c * a)
+    origin = Origin("derivation/both-turns", f"a root of the equation of meshing for {angle}")
+    named = surface.definitions.let(angle.name, turn, angle.meaning, angle.unit, origin=origin, parity=angle.parity)
+    remaining = tuple(p for p in surface.parameters if p != angle)
+    solved = substitute(replace(surface, parameters=remaining, conditions=tuple(others)), {angle: named})
+    return solved.on("derivation/both-turns").by(Step.of("solved", parameter=angle, value=turn))
+
+
 def in_turn(condition: sp.Expr, angle: Quantity) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
-    """Coefficients (a, b, c) of a condition that is a·cos(angle) + b·sin(angle) + c."""
+    """Coefficients (a, b, c) of a condition that is a·cos(angle) + b·sin(angle) + c, perhaps only multiplied out."""
     cosine, sine = sp.Symbol("_cos"), sp.Symbol("_sin")
     form = replaced(condition, {sp.cos(angle): cosine, sp.sin(angle): sine})
+    if any(partial(partial(form, p), q) != 0 for p, q in ((cosine, cosine), (cosine, sine), (sine, sine))):
+        form = sp.expand(replaced(sp.expand(form), {sine**2: 1 - cosine**2}))
     a, b, c = partial(form, cosine), partial(form, sine), replaced(form, {cosine: sp.Integer(0), sine: sp.Integer(0)})
     if {cosine, sine, angle} & (a.free_symbols | b.free_symbols | c.free_symbols):
         raise ValueError("the equation is not linear in the cosine and sine of one angle")

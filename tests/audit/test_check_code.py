@@ -97,7 +97,7 @@ def test_a_statement_that_cannot_be_read_is_an_error(tmp_path):
     rejected(tmp_path, head + signature + tail, "not a straight-line statement")
 
 
-@pytest.mark.parametrize("every", quick([12, 3], 12))
+@pytest.mark.parametrize("every", quick([24, 3], 24))
 def test_changed_signs_inside_the_programs_are_caught(capsys, tmp_path, every):
     """Sums turned into a difference, one at a time, in the residual and the wheel flank."""
     source = header("cylindrical_worm_zn_zn")

@@ -45,7 +45,7 @@ def angles(drive, rng, count):
 
 
 @pytest.mark.parametrize(
-    "name", quick(POINTS, "recess-action-full", "helical-crowned", "face-worm-conical-concave", "bevel-formate")
+    "name", quick(POINTS, "recess-action-full", "helical-crowned", "face-worm-conical-concave")
 )
 def test_contacts_of_packaged_designs_are_verified(name, tmp_path):
     rng = np.random.default_rng(len(name))

@@ -9,17 +9,32 @@ from pathlib import Path
 import pytest
 
 from derive.audit import record
+from derive.audit.ledger import build
 from derive.prove import Outcome
+
+#: The four documents that print what they derive.
+DOCUMENTS = ("recess-action", "rack-and-pinion", "zk-zn", "spherical")
 
 
 @pytest.fixture(scope="module")
 def verdicts():
-    return {verdict.id: verdict for found in record.ledger().verdicts.values() for verdict in found}
+    built = build(record.chapters(DOCUMENTS))
+    return {verdict.id: verdict for found in built.verdicts.values() for verdict in found}
 
 
+@pytest.mark.validate
 def test_the_committed_record_is_what_the_prover_says_now():
     committed = Path(__file__).resolve().parents[2] / "generated" / "audit" / "artifacts.json"
     assert json.loads(committed.read_text(encoding="utf-8"))["root"] == record.ledger().root
+
+
+@pytest.mark.validate
+def test_every_identity_about_our_own_derivations_is_proved():
+    verdicts = [verdict for found in record.ledger().verdicts.values() for verdict in found]
+    own = [verdict for verdict in verdicts if verdict.claim.kind == "identity"]
+    assert len(own) >= 40
+    assert {verdict.status for verdict in own} == {"proved"}
+    assert not [verdict.id for verdict in verdicts if verdict.status == "undecided"]
 
 
 def test_chapters_of_our_own_name_the_source_that_they_are_about():
@@ -106,12 +121,6 @@ def test_four_entries_of_table_2_are_misprinted(verdicts):
     assert [formula.partition("/")[0] for formula in wrong] == ["800", "1200", "1600", "800"]
     corrected = [part.figure.printed for part in verdicts["recess-action/table-2-wheel-angle"].corrected.parts]
     assert {"2.8881", "4.3323", "5.7764"} <= set(corrected)
-
-
-def test_every_identity_about_our_own_derivations_is_proved(verdicts):
-    own = [verdict for verdict in verdicts.values() if verdict.claim.kind == "identity"]
-    assert len(own) >= 40
-    assert {verdict.status for verdict in own} == {"proved"}
 
 
 def test_nothing_is_undecided(verdicts):

@@ -39,6 +39,7 @@ def test_proofs_are_accepted_and_a_changed_coefficient_is_not(objects, tmp_path)
         kernel.compile_file(written(wrong, tmp_path / "Wrong.v"))
 
 
+@pytest.mark.validate
 @needs_coq
 def test_what_the_kernel_reduces_itself_needs_no_cofactors(objects, tmp_path, monkeypatch):
     """And a side that is doubled is refused."""

@@ -48,7 +48,7 @@ def is_refused(description, header, tangents):
     return False
 
 
-@pytest.mark.parametrize(("count", "least"), quick([(200 if full() else 60, 0.95), (12, 0.9)], (12, 0.9)))
+@pytest.mark.parametrize(("count", "least"), quick([(200 if full() else 60, 0.95), (5, 0.9)], (5, 0.9)))
 def test_a_wrong_description_is_refused(count, least, capsys, monkeypatch):
     monkeypatch.setattr(attempts, "ATTEMPTS", 2000)
     monkeypatch.setattr(attempts, "REFUSALS", 8)

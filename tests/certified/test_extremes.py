@@ -157,6 +157,7 @@ def test_errors_past_the_segment_are_enclosed_or_unknown():
         assert low - 1e-6 <= pair.error(math.radians(angle))[0] / ARCSEC <= high + 1e-6
 
 
+@pytest.mark.validate
 def test_a_table_of_lines_and_edges_is_certified(tmp_path, capsys):
     path = tmp_path / "c14.toml"
     path.write_text(designs.toml_text(c14().design.given()))

@@ -50,7 +50,8 @@ def test_tca_writes_every_key_of_every_point(capsys):
 
 
 ONE_OF_EACH = (
-    "plain-zn", "face-worm-cylindrical-concave", "spherical-table-4-4-spur", "helical-crowned", "bevel-crowned-both"
+    "plain-zn", "face-worm-cylindrical-concave", "spherical-table-4-4-spur", "helical-crowned", "bevel-crowned-both",
+    "internal-22-70",
 )  # fmt: skip
 
 

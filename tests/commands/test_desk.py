@@ -151,7 +151,7 @@ FIRST = [
 ]
 
 
-@pytest.mark.parametrize("words", quick(FIRST, *FIRST[1:]))
+@pytest.mark.parametrize("words", quick(FIRST, *FIRST[1:4], FIRST[5]))
 def test_a_first_design_of_every_family_meshes(tmp_path, monkeypatch, capsys, words):
     monkeypatch.chdir(tmp_path)
     assert main(["new", *words.split(), "--out", "first.toml"]) == 0
@@ -254,7 +254,7 @@ def test_a_size_of_ones_own_that_nothing_follows_is_said(tmp_path, monkeypatch, 
 @pytest.mark.parametrize(
     ("own", "blamed"),
     [
-        (["design.hob_pitch_radius_mm=5"], "design.hob_pitch_radius_mm = 5"),
+        pytest.param(["design.hob_pitch_radius_mm=5"], "design.hob_pitch_radius_mm = 5", marks=pytest.mark.validate),
         (["contact.separation_mm=0.01", "design.hob_pitch_radius_mm=5"], "design.hob_pitch_radius_mm = 5"),
         (["contact.separation_mm=0.01"], None),
     ],
@@ -306,9 +306,13 @@ def test_a_first_design_is_asked_for_in_the_words_of_a_drawing(tmp_path, monkeyp
 
 
 REFUSED = {
-    "new cylindrical-gears --m 2 --z 20:-60": "wheel_teeth = -60: no drive of this family has an internal gear",
-    "new cylindrical-gears --m 2 --z 20:rack": "wheel_kind = 'rack': no drive of this family",
-    "new cylindrical-gears --m 2 --z 20:moon": "moon: no kind of wheel of this family",
+    "new bevel --m 2 --z 20:-60": "20:-60: no wheel of the family bevel; use `meshwright new internal-gears`",
+    "new spherical --m 2 --z 20:internal": "20:internal: no wheel.*use `meshwright new internal-gears`",
+    "new cylindrical-gears --m 2 --z 20:internal": "design.wheel_teeth: the key is missing",
+    "new cylindrical-gears --m 2 --z 20:-60 --wheel-kind external": "wheel_teeth = -60: contradicts.*kind = external",
+    "new cylindrical-gears --m 2 --z 20:rack": "wheel_kind = 'rack': no family has a rack",
+    "new cylindrical-gears --m 2 --z 20:moon": "moon: no wheel of the family cylindrical-gears; give its number",
+    "new internal-gears --m 2 --z 20:-24": "tips meet outside the path of contact.*margin in rad of the ring gear -0.0",
     "new cylindrical-gears --z 20:60": "--m: no module",
     "new cylindrical-wurm --m 4 --z 2:40": "did you mean 'cylindrical-worm'",
     "new cylindrical-worm --m 4 --z 2:40 --profile ZX": "no drive of this family has these words.*ZA, ZC, ZI, ZK, ZN",

@@ -14,6 +14,8 @@ DRAWINGS = {
     "cylindrical-worm --z 2:40 --profile ZI --m 4 --worm-diameter-quotient 10 --hob-pitch-diameter 40 "
     "--normal-backlash 0.08": {"center_distance_mm": 100.0, "cutting_center_distance_mm": 100.0, "axial_backlash_mm":
         0.08 / (math.cos(math.atan(0.2)) * math.cos(math.radians(20)))},
+    "cylindrical-worm --z 1:45 --profile ZK --axial-pitch 4.71238898 --worm-diameter-quotient 11.2 "
+    "--hob-pitch-diameter 16.8": {"cutting_center_distance_mm": 42.15, "worm_thickness_allowance_um": -31.9},
     "cylindrical-worm --z 1:30 --profile ZK --axial-pitch 12.566370614 --worm-pitch-diameter 40 "
     "--wheel-profile-shift-coefficient 0.3": {"center_distance_mm": 81.2, "worm_diameter_quotient": 10.0},
     "cylindrical-worm --z 1:30 --profile ZA --m 4 --worm-diameter-quotient 10 --center-distance 79": {
@@ -78,8 +80,8 @@ def worms(draw, module):
     words += draw.choice([["--m", module], ["--axial-pitch", math.pi * module]])
     words += draw.choice([["--worm-diameter-quotient", quotient], ["--worm-pitch-diameter", quotient * module]])
     words += draw.choice([[], ["--wheel-profile-shift-coefficient", draw.uniform(-0.3, 0.3)]])
-    equal = ["--hob-pitch-radius", quotient * module / 2, "--normal-backlash", 0.02 * module]
-    return words + draw.choice([[], equal])
+    equal = ["--hob-pitch-radius", quotient * module / 2]
+    return words + draw.choice([[], equal, [*equal, "--normal-backlash", 0.02 * module]])
 
 
 def spheres(draw, module):

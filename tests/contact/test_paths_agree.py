@@ -32,7 +32,7 @@ VARIED = {
     "bevel-formate": ("", 0.0, 0.0),
     "bevel-face-hobbed": ("", 0.0, 0.0),
 }
-NOW = ("recess-action-full", "spherical-table-2-3", "crossed-helical-17-23", "bevel-formate")
+NOW = ("recess-action-full", "spherical-table-2-3", "crossed-helical-17-23")
 
 
 def _random(name, generator):

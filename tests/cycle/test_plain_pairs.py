@@ -284,7 +284,7 @@ def test_bevel_gears_touch_at_toe_or_heel(axial, degrees, end):
 
 def test_a_sweep_and_an_analysis_call_the_same_contacts_lines_edges_and_points():
     """Crowning within 1e-9 mm is none; the assembly decides whether a line, an edge or a point touches."""
-    angles = np.radians([-10.0, 0.0, 5.0, 20.0, 35.0])
+    angles = np.radians([0.0, 20.0, 35.0])
     nominal = c14(pinion_lead_crowning_um=0.0, wheel_lead_slope_um=0.0)
     keys = ("design.pinion_lead_crowning_um", "misalignment.vertical_deg")
     values = np.array([[0.0, 0.0], [1e-6, 0.0], [1.0, 0.0], [0.0, 1e-3], [1e-6, 0.0]])

@@ -15,6 +15,7 @@ from derive.passes.schedule import schedule
 from derive.program.routine import routine
 from tests.derive import small
 from tests.derive.small import lowered
+from tests.quick import quick
 
 DRIVE = "cylindrical_worm_zn_zn"
 SYMBOLS = small.x, small.y
@@ -124,7 +125,9 @@ def test_the_description_names_keys_rules_motions_and_equations(capsys):
         assert words in shown
 
 
-@pytest.mark.parametrize("drive", ["bevel_formate", "cylindrical_gears", "face_worm", "spherical_convex_spur"])
+@pytest.mark.parametrize(
+    "drive", quick(["bevel_formate", "cylindrical_gears", "face_worm", "spherical_convex_spur"], "cylindrical_gears")
+)
 def test_the_description_of_every_family_can_be_read(drive, capsys):
     assert command.main(["show", drive]) == 0
     shown = capsys.readouterr().out

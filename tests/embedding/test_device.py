@@ -114,7 +114,7 @@ def _turned(library, s, x, angles, no):
 
 
 @pytest.mark.parametrize("name", quick(DESIGNS, DESIGNS[0]))
-@pytest.mark.parametrize("how", PLAYED)
+@pytest.mark.parametrize("how", quick(PLAYED, "both"))
 def test_the_device_s_part_of_a_header_has_the_host_s_bits(tmp_path, name, how):
     """A state and a contact of the host go to the device, which goes on; where that does not serve it says so."""
     drive = Drive.load(name)

@@ -16,6 +16,7 @@ from meshwright.base.library import ABI, SHIPPED
 from meshwright.cli import main
 from meshwright.contact.results import ARCSEC
 from tests.embedding import compile as c
+from tests.quick import quick
 
 EXAMPLES = c.ROOT / "runtime" / "examples"
 
@@ -27,7 +28,7 @@ def error():
     return f"{result.error[0] / ARCSEC:.6f}"
 
 
-@pytest.mark.parametrize("standard", ["c99", "c++11"])
+@pytest.mark.parametrize("standard", quick(["c99", "c++11"], "c++11"))
 def test_a_program_with_one_copied_header(tmp_path, error, standard):
     shutil.copy(c.GENERATED / "cylindrical_worm_zn_zn.h", tmp_path)
     source = tmp_path / ("contact.c" if standard == "c99" else "contact.cpp")
@@ -37,7 +38,7 @@ def test_a_program_with_one_copied_header(tmp_path, error, standard):
     assert error in c.run(tmp_path / "contact")
 
 
-@pytest.mark.parametrize("standard", ["c99", "c++11"])
+@pytest.mark.parametrize("standard", quick(["c99", "c++11"], "c99"))
 def test_a_proof_with_two_copied_headers(tmp_path, error, standard):
     for name in ("cylindrical_worm_zn_zn.h", "cylindrical_worm_zn_zn_certify.h"):
         shutil.copy(c.GENERATED / name, tmp_path)

@@ -7,6 +7,7 @@ import pytest
 from meshwright import Drive
 from tests.embedding import compile as c
 from tests.embedding.test_designs_alone import PROGRAM, assignments
+from tests.quick import quick
 
 _WITHOUT = (
     "#include <stdlib.h>\n"
@@ -45,7 +46,7 @@ def program(folder, text):
 DESIGNS = ("recess-action-full", "spur-profile-shift", "face-worm-conical-convex")
 
 
-@pytest.mark.parametrize("name", DESIGNS)
+@pytest.mark.parametrize("name", quick(DESIGNS, "spur-profile-shift"))
 def test_a_key_that_a_design_lacks_is_named(tmp_path, name):
     design = Drive.load(name).design
     described = design.description["name"]

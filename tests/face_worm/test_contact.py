@@ -9,6 +9,7 @@ import pytest
 
 from meshwright import Drive
 from tests.face_worm.designs import ERRORS, NAMES, UNKNOWNS, changed, driving, independent
+from tests.quick import quick
 
 ARCSEC = math.pi / 648000
 LATER = pytest.mark.validate
@@ -64,7 +65,7 @@ def test_path_of_contact_is_longitudinal(name):
 
 
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("signs", [(0, 0, 0), (1, 1, 1), (-1, 1, -1)])
+@pytest.mark.parametrize("signs", quick([((0, 0, 0),), ((1, 1, 1),), ((-1, 1, -1),)], ((1, 1, 1),)))
 def test_double_precision_agrees_with_fifty_digits(name, signs):
     errors = {key: sign * value for (key, value), sign in zip(ERRORS.items(), signs, strict=True)}
     for rule in ("mid", "cones") if signs == (0, 0, 0) else ("mid",):

@@ -54,6 +54,7 @@ def test_echo_names_points_axes_and_angles():
     assert design["pitch_point_rule"] == "mid"
 
 
+@pytest.mark.validate
 def test_a_search_from_nothing_finds_the_same_roots():
     """Hob phase by sign changes over a turn, A1 and A2 by small steps from the section of L."""
     drive = Drive.load(NAMES[1])

@@ -8,6 +8,7 @@ from meshwright import Drive
 from meshwright.limits.results import Request
 from meshwright.limits.singular_lines import edges
 from tests.face_worm.designs import NAMES, independent
+from tests.quick import quick
 
 CONVEX = [name for name in NAMES if name.endswith("convex")]
 
@@ -43,7 +44,7 @@ def test_at_an_edge_the_tangents_of_the_cut_surface_are_dependent(name):
             assert singular_values[1] > 1e-3
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", quick(NAMES, NAMES[0]))
 def test_undercut_points_are_singular_and_lie_off_the_flanks_of_the_packaged_designs(name):
     drive = Drive.load(name)
     found = list(drive.limits(Request(grid=5)).undercut)

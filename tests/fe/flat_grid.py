@@ -23,6 +23,7 @@ def flat_grid(centres, half, place, free_edges=ALL_ROUND):
         offset=nothing,
         free=np.zeros((2, count), dtype=bool),
         beyond={},
+        sharp=np.zeros((4, count)),
         place={"wheel": place},
         free_edges={"wheel": free_edges},
     )

@@ -9,12 +9,13 @@ from meshwright.fe.pair import touches
 from meshwright.fe.profile import Cut, Smooth
 from meshwright.fe.solids import gear_pair
 from meshwright.fe.tooth import moved
+from tests.quick import quick
 
 #: A thread and a generated wheel, threads that are envelopes, gears of one and of two parameters along the tooth.
 NAMES = ("recess-action-full", "face-worm-conical-convex", "spherical-table-3-1-concave", "bevel-crowned-both")
 
 
-@pytest.fixture(scope="module", params=NAMES)
+@pytest.fixture(scope="module", params=quick(NAMES, *NAMES[1:3]))
 def pair(request):
     return gear_pair(Drive.load(request.param))
 
@@ -89,7 +90,7 @@ def test_sections_cut_a_flank_as_secants_find_it(pair, member):
     assert np.sum(coordinates * factors, axis=1) == pytest.approx(sums, abs=1e-9)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", quick(NAMES, *NAMES[1:3]))
 def test_normals_of_sections_stand_on_the_curves_in_them(name):
     """Of planes, cylinders, cones and half planes: along the curve of a flank in a section nothing moves across it."""
     of = gear_pair(Drive.load(name)).pinion

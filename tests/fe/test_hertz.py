@@ -6,6 +6,7 @@ from scipy.integrate import dblquad
 
 from meshwright.fe.hertz import axis_ratio, elliptic_contact, line_contact
 from meshwright.fe.material import Material, contact_modulus, max_principal, von_mises
+from tests.quick import quick
 
 STEEL = Material(205000.0, 0.29)
 MODULUS = contact_modulus(STEEL, STEEL)
@@ -57,7 +58,7 @@ def test_a_long_ellipse_is_locally_a_line():
     assert contact.subsurface_von_mises == pytest.approx(line.subsurface_von_mises, rel=1e-3)
 
 
-@pytest.mark.parametrize("ratio", [0.9, 0.5, 0.1])
+@pytest.mark.parametrize("ratio", quick([0.9, 0.5, 0.1], 0.5))
 def test_subsurface_stress_against_boussinesq(ratio):
     """The largest von Mises stress on the axis from the point-load solution, integrated numerically."""
     wanted = np.linspace(1e-4, 1.0, 20001)

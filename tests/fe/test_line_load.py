@@ -134,6 +134,29 @@ def test_less_crowning_leads_to_the_line(drive, force, least, torque):
     assert (peaks > lines).all() and peaks[-1] < 1.03 * lines[-1]
 
 
+def _worm(micrometres):
+    """The equal hob's drive with one so much larger that flanks part by micrometres half a face from contact."""
+    derived = "cutting_center_distance_mm", "cutting_shaft_angle_deg"
+    design = {key: value for key, value in EQUAL_HOB_TABLES["design"].items() if key not in derived}
+    larger = {"hob_pitch_radius_mm": 20.0 + 0.0142 * micrometres}
+    return Drive.from_tables(EQUAL_HOB_TABLES | {"design": design | larger})
+
+
+@pytest.mark.validate
+def test_a_contact_that_grows_beyond_a_sharp_tip_keeps_the_peak_of_its_free_part():
+    """Less crowning lengthens the ellipse beyond the worm's tip, which presses the wheel's flank with more and more."""
+    peaks, highest = [], []
+    for micrometres in np.linspace(20.0, 10.0, 7):
+        found = loaded_contact(gear_pair(_worm(micrometres)), 0.0, 3, Load(200e3, "wheel"), None)
+        assert not found.unresolved
+        pair = next(pair for pair in found.pairs if pair.contact.pairs_later == -1)
+        peaks.append(pair.peak_pressure)
+        highest.append(pair.pressures.max())
+    peaks = np.array(peaks)
+    assert np.abs(peaks[1:-1] / (0.5 * (peaks[2:] + peaks[:-2])) - 1.0).max() < _ROOM
+    assert highest[0] == peaks[0] and highest[-1] > 1.3 * peaks[-1]
+
+
 @pytest.mark.parametrize(("name", "pitches", "later", "load", "reach"), quick(PRESSED, PRESSED[0]))
 def test_flanks_that_curve_as_they_like_press_as_brute_force_has_it(name, pitches, later, load, reach, monkeypatch):
     """Beside the base circle curvature changes within the contact: the peak is 17 % below Hertz's, half-spaces alone.

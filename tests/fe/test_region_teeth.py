@@ -237,6 +237,7 @@ def test_a_bevel_pair_carries_along_lines(capsys):
     assert sum(pair["share"] for pair in point["pairs"]) == pytest.approx(1.0)
 
 
+@pytest.mark.validate
 def test_finite_elements_refuse_lines_with_the_remedy(capsys, tmp_path):
     words = ["fe", "bevel-crown-pair", "--torque-nm", "20", "--phi-deg=0", "--folder", str(tmp_path / "fe")]
     assert main(words) == 2

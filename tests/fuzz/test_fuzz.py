@@ -59,14 +59,14 @@ def test_what_was_once_trouble_is_exported_and_reported(path, tmp_path):
 
 
 def test_the_c_interface_does_as_it_says_of_random_bytes(tmp_path):
-    """Some ten thousand calls of every function; what it calls a success or a proof is held against both surfaces."""
+    """Some thousand calls of every function; what it calls a success or a proof is held against both surfaces."""
     built = interface.ROOT / ".venv" / "objects"
     if not built.exists() or not interface.gcc():
         pytest.skip("the drives were not built in this checkout, or there is no gcc")
     program = interface.build_quickly(tmp_path, "gcc", built, "spherical-table-2-3")
-    ended, said = interface.run(program, (5, 60), 300)
+    ended, said = interface.run(program, (5, 20), 300)
     assert ended == 0, said
-    assert interface.counted(said)["calls"] > 8_000 and interface.counted(said)["successes"] > 300
+    assert interface.counted(said)["calls"] > 2_000 and interface.counted(said)["successes"] > 100
 
 
 def test_a_changed_record_is_refused_with_a_reason(tmp_path):

@@ -12,7 +12,6 @@ from meshwright.cli import main
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle.backlash import backlash
 from meshwright.shop.tool_life import Bounds, ToolLife
-from tests.quick import quick
 
 ANGLES = np.radians(np.linspace(-60.0, 60.0, 5))
 AMOUNTS = (0.0, 0.15, 0.3)
@@ -54,7 +53,8 @@ def _by_hand(drive, amount):
     )
 
 
-@pytest.mark.parametrize("amount", quick(AMOUNTS, 0.3))
+@pytest.mark.validate
+@pytest.mark.parametrize("amount", AMOUNTS)
 def test_a_life_is_that_of_designs_built_grind_by_grind(life, amount):
     state, hand = life.state(amount), _by_hand(life.drive, amount)
     here, there = state.drive.tca(ANGLES), hand.tca(ANGLES)

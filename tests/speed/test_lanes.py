@@ -6,6 +6,7 @@ import pytest
 from meshwright import Drive
 from meshwright.base.library import ffi, library
 from tests.lanes import WIDTHS, available, trace, trace_designs
+from tests.quick import quick
 
 DESIGNS = ("recess-action-full", "face-worm-cylindrical-convex", "spherical-table-2-3")
 
@@ -18,7 +19,7 @@ def lanes(request):
     return found
 
 
-@pytest.mark.parametrize("name", DESIGNS)
+@pytest.mark.parametrize("name", quick(DESIGNS, "spherical-table-2-3"))
 def test_one_design_in_lanes_is_the_scalar_trace(lanes, name):
     drive = Drive.load(name)
     angles = np.linspace(-0.3, 0.3, 203) * drive.pitch()

@@ -42,7 +42,7 @@ ERRORS = {
 WITH_TWINS = [name for name in design.packaged_names() if design.read(name)["drive"] in ERRORS]
 
 #: A design of each family.
-NOW = ("recess-action-full", "spherical-table-2-2-convex-20", "face-worm-conical-concave", "helical-crowned")
+NOW = ("recess-action-full", "spherical-table-2-2-convex-20")
 
 
 def _values(drive, keys):

@@ -354,6 +354,7 @@ def test_an_embedded_dask_cluster_writes_the_same_rows(tmp_path):
     assert np.array_equal(_rows(tmp_path / "a"), _rows(tmp_path / "b"))
 
 
+@pytest.mark.validate
 def test_a_killed_dask_worker_loses_nothing(tmp_path):
     """Workers are killed while they write; the cluster's address is that of any cluster."""
     distributed = pytest.importorskip("distributed")

@@ -9,6 +9,7 @@ from derive.language import vectors as v
 from derive.language.chain import screw
 from derive.prove import Outcome, Statement, decide
 from derive.prove.tree import parse
+from tests.quick import quick
 
 NAMES = [n for n in drives.catalogue() if n.startswith("cylindrical_worm_") and not n.endswith("_reground")]
 
@@ -17,7 +18,7 @@ def test_every_form_serves_as_worm_and_as_hob():
     assert len(TOOLS) == 5 and len(NAMES) == 25
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", quick(NAMES, *NAMES[::5]))
 def test_reduction_makes_worm_and_wheel_explicit_whatever_the_forms(name):
     drive = drives.catalogue()[name]()
     for body in drive.bodies:

@@ -11,6 +11,8 @@ enum {
 
 /* A place so near to a limit, mm or natural sizes, lies on it. */
 static const double ON_LIMIT = 1e-7;
+/* A ridge bends less along it than across it by this share. */
+static const double RIDGE = 0.1;
 /* How far a climb goes at first, natural sizes; a rise by less over such a way, rad, is lost in rounding. */
 static const double FIRST_RADIUS = 0.1, LEVEL = 1e-16;
 
@@ -136,10 +138,37 @@ static int level(const search *h, const model_ *q, const double *H, double radiu
     return best_step(h, q, H, fmax(radius, FIRST_RADIUS), &longer) && longer.gain < LEVEL;
 }
 
+static int held_by_limit(const int *active)
+{
+    return (active[0] >= 0 && active[0] < MAX_LIMITS) || (active[1] >= 0 && active[1] < MAX_LIMITS);
+}
+
+/* A step along a ridge, as flanks have that touch nearly along a line, leaves it where it bends: back across it to where
+ * the slope across is gone. Without this a climb goes along a bent ridge in steps that only its width allows. */
+static void onto_ridge(const search *h, const double *H, place *to)
+{
+    const double middle = 0.5 * (H[0] + H[2]), apart = sqrt(0.25 * (H[0] - H[2]) * (H[0] - H[2]) + H[1] * H[1]);
+    const double across = middle - apart, along_it = middle + apart;
+    if (!h->given || !(fabs(along_it) < RIDGE * -across)) return;
+    double e[2] = {H[1], across - H[0]};
+    if (fabs(across - H[2]) > fabs(e[1])) e[0] = across - H[2], e[1] = H[1];
+    const double size = sqrt(e[0] * e[0] + e[1] * e[1]);
+    double slope = (to->slope[0] * e[0] + to->slope[1] * e[1]) / size;
+    for (int k = 0; k < RESTORATIONS; k++) {
+        place back;
+        const double c = -slope / (across * size);
+        if (!beside(h, to, c * e[0], c * e[1], &back)) return;
+        const double left = (back.slope[0] * e[0] + back.slope[1] * e[1]) / size;
+        if (!(fabs(left) < fabs(slope))) return;
+        *to = back;
+        slope = left;
+    }
+}
+
 /* Climb from a place to the local extreme of the bounded flanks; active receives the limits that hold it. */
 static int climb(const search *h, place *P, int *active)
 {
-    double radius = FIRST_RADIUS, weight = 0.0, multiplier[2] = {0.0, 0.0};
+    double radius = FIRST_RADIUS, weight = 0.0, before = HUGE_VAL, multiplier[2] = {0.0, 0.0};
     int held[2] = {-1, -1};
     for (int k = 0; k < CLIMB_STEPS; k++) {
         model_ q;
@@ -156,6 +185,7 @@ static int climb(const search *h, place *P, int *active)
             continue;
         }
         if (level(h, &q, H, radius, &step)) {
+            onto_ridge(h, H, P);
             active[0] = active[1] = -1;
             return violation(h, P) < 1e-8;
         }
@@ -163,12 +193,17 @@ static int climb(const search *h, place *P, int *active)
         for (int a = 0; a < 2; a++)
             if (step.active[a] >= 0 && step.active[a] < MAX_LIMITS) weight = fmax(weight, 2.0 * fabs(step.multiplier[a]));
         const int moved = beside(h, P, step.d[0], step.d[1], &to);
-        if (length < 1e-11 || (length < 1e-9 && k > 40)) {
+        /* steps that gain nothing and get no shorter are rounding: the place is determined no better */
+        const int lost = step.gain < LEVEL && length > 0.5 * before;
+        before = step.gain < LEVEL ? length : HUGE_VAL;
+        if (length < 1e-11 || (length < 1e-9 && k > 40) || (lost && !held_by_limit(step.active))) {
             if (moved) *P = to;
+            if (lost && !held_by_limit(step.active)) onto_ridge(h, H, P);
             active[0] = step.active[0];
             active[1] = step.active[1];
             return violation(h, P) < 1e-8;
         }
+        if (moved && !held_by_limit(step.active)) onto_ridge(h, H, &to);
         if (moved) restore(h, &q, step.active, &to);
         const double now = P->value - weight * violation(h, P);
         if (!moved || !(to.value - weight * violation(h, &to) > now - 1e-15) ) {

@@ -33,15 +33,22 @@ def add_arguments(parser):
 
 
 def meanings():
-    """``{"status" | "flag" | "event" | "reason" | "outcome" | "quantity": {word: what it means}}``."""
+    """``{"status" | "flag" | "event" | "reason" | "outcome" | "check" | "quantity": {word: what it means}}``."""
     return {
         "status": {word: status_text(word) for word in dict.fromkeys(statuses().values())},
         "flag": {word: _flag(word) for word in words.FLAGS},
         "event": words.EVENTS,
         "reason": reasons() | words.GAPS,
         "outcome": words.OUTCOMES,
+        "check": _checks(),
         "quantity": words.QUANTITIES,
     }
+
+
+def _checks():
+    """What the checks of drawings say, by name."""
+    families = description.families().values()
+    return {check["name"]: check["meaning"] for family in families for check in family.drawing.table["checks"]}
 
 
 def keys():

@@ -131,10 +131,11 @@ def _teeth(text):
 
 
 def run(options):
-    family = _family(options.family)
-    words = _words(family, options.profile)
-    own = _sizes(family, options)
     asked = {"m": options.m or math.nan, "z_1": options.z[0], "z_2": options.z[1], "a": options.a}
+    named = _family(options.family)
+    own = _sizes(named, options)
+    family = _belongs(named, asked, own)
+    words = _words(family, options.profile)
     given, determined, sizes = _determined(family, asked, own)
     if math.isfinite(options.a) and "a" not in family.outline["options"]:
         raise UsageError(f"--a {options.a:g}: the centre distance of this family follows from its teeth; leave it out")
@@ -152,6 +153,7 @@ def run(options):
         raise UsageError(f"{place}: exists already; name another file with --out, or another --name")
     touch, seen = _contact(drive)
     faults = [*([] if touch else [seen]), *_pointed(drive), *_undercut(drive), *(_short(drive) if touch else [])]
+    faults = faults or _interfering(drive)
     if faults:
         made = partial(first_design, family, name, words, given, determined=determined)
         blamed = [] if touch else [*_blamed(family, own, lambda kept: made(own=kept))]
@@ -165,21 +167,62 @@ def run(options):
     return 0
 
 
+def _asked(family, asked):
+    """The places of options that are sizes, and the sizes that these give, by "table.key".
+
+    A word in the place of a number is the size of which it is a choice; nothing where the family has no such size.
+    """
+    places = {s["values"][0]: s["place"] for s in family.outline["suggestions"]
+              if len(s["values"]) == 1 and s["values"][0] in [*asked]}  # fmt: skip
+    sizes = {}
+    for option, place in places.items():
+        if isinstance(word := asked[option], str):
+            chosen = [size for size, p in family.drawing.places.items() if word in p["choices"]]
+            sizes |= dict.fromkeys(chosen[:1], word)
+        elif word == word:
+            sizes[place] = word
+    return places, sizes
+
+
+def _belongs(family, asked, own):
+    """The family itself, or that of which its drawing says that a drive with these options and ``own`` sizes is.
+
+    Raises :class:`UsageError` where the family has no such wheel, :class:`DesignError` where no family has.
+    """
+    tables = designs.changed({"drive": family.name}, _asked(family, asked)[1] | own)
+    if other := family.drawing.other_family(tables):
+        return _family(other)
+    if error := family.drawing.refused(tables):
+        raise error
+    if not _has_wheel(family, asked):
+        found = [name for name, f in description.families().items() if f.outline and _takes(f, asked)]
+        remedy = " or ".join(f"use `meshwright new {name}`" for name in found) or "give its number of teeth"
+        raise UsageError(f"--z {asked['z_1']}:{asked['z_2']}: no wheel of the family {family.name}; {remedy}")
+    return family
+
+
+def _has_wheel(family, asked):
+    """Whether a wheel's number of teeth lies in the domain of its key, or its word is a choice of the family."""
+    places, sizes = _asked(family, asked)
+    if isinstance(asked["z_2"], str):
+        return asked["z_2"] in sizes.values()
+    p = family.drawing.places[places["z_2"]]
+    return (p["lower"] is None or asked["z_2"] > p["lower"]) and (p["upper"] is None or asked["z_2"] < p["upper"])
+
+
+def _takes(family, asked):
+    """Whether drives of this family, and not of another, have such a wheel."""
+    tables = designs.changed({"drive": family.name}, _asked(family, asked)[1])
+    drawing = family.drawing
+    return _has_wheel(family, asked) and not (drawing.other_family(tables) or drawing.refused(tables))
+
+
 def _determined(family, asked, own):
     """The options as they are, the keys that follow from them and from one's ``own`` sizes, by "table.key", and the
     sizes that the options are.
     """
     drawing = family.drawing
-    places = {s["values"][0]: s["place"] for s in family.outline["suggestions"]
-              if len(s["values"]) == 1 and s["values"][0] in [*asked]}  # fmt: skip
-    sizes = {place: number for option, place in places.items() if (number := asked[option]) == number}
-    for option, word in asked.items():
-        if isinstance(word, str):
-            named = [place for place, p in drawing.places.items() if word in p["choices"]]
-            if not named:
-                raise UsageError(f"--z {word}: no kind of wheel of this family; give its number of teeth")
-            sizes |= {named[0]: word}
-            del sizes[places[option]]
+    places, sizes = _asked(family, asked)
     tables = designs.changed({"drive": family.name}, sizes | own)
     if error := drawing.refused(tables):
         raise error
@@ -247,6 +290,12 @@ def _undercut(drive):
     ]
 
 
+def _interfering(drive):
+    """A line for each check of the drawing by which something occurs that should not."""
+    found = [check for check in drive.drawing().checks.values() if check.word == "occurs" and check.holds]
+    return [f"careful: {check.meaning} {check.margin:.3g}" for check in found]
+
+
 def _short(drive):
     """A line if the next pair of teeth comes into contact only after one has left it."""
     ratio = drive.contact_ratio().contact_ratio
@@ -285,7 +334,7 @@ def _meshes(made):
     """Whether nothing is wrong with a drive that is yet to be made."""
     try:
         drive = made()
-        return _contact(drive)[0] and not (_pointed(drive) or _undercut(drive) or _short(drive))
+        return _contact(drive)[0] and not (_pointed(drive) or _undercut(drive) or _short(drive) or _interfering(drive))
     except (DesignError, UsageError):
         return False
 
@@ -312,7 +361,8 @@ def _out_of_line(drive, result):
     if search is None or not search.flank.pointless:
         return np.inf
     own = drive.design.mirror.sign * result.angles
-    return np.nanmax([search.rise(*at) for at in zip(own, search.at(own), strict=True)])
+    rises = [search.rise(*at) for at in zip(own, search.at(own), strict=True)]
+    return max(filter(np.isfinite, rises), default=np.inf)
 
 
 def _family(name):

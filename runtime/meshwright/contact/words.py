@@ -160,9 +160,13 @@ QUANTITIES = {
     "loaded_transmission_error": "transmission error of elastic teeth under the torque given",
     "load_share": "part of the force that one pair carries",
     "mesh_stiffness": "force along the normals over the approach of the flanks, at the torque given",
-    "peak_pressure": "largest contact pressure of a pair; at an edge of a flank as sharp as the cells of the method",
-    "peak_at_edge": "the largest pressure of a pair is at an edge of a flank, where it rises without limit as cells "
-    "get finer, if the mate goes on beyond the edge; force and share hold",
+    "peak_pressure": "largest contact pressure of a pair; where a sharp edge of a flank presses, that of the free "
+    "contact, a quarter of its length and width away, or of the half of the force that is furthest away",
+    "peak_at_edge": "pressure is higher beside a sharp edge of a flank than the peak of the free contact: there it "
+    "grows without bound as cells get finer; force and share hold",
+    "carried_by_edge": "a sharp edge carries half of a pair's force or more: its peak of pressure is as sharp as that",
+    "edge_zone": "how far from sharp edges the peak of pressure is taken, along and across the contact",
+    "edge_loads": "force, length of the edge and mean pressure beside each sharp edge that presses, to about 5 %",
     "rotation_not_small": "of loaded contact: the torque turns the member too far for linear elasticity",
     "not_resolved": "of loaded contact: finer or wider cells go on changing the result, or it breaks equilibrium",
     "misalignment": "errors of the assembly, keys of [misalignment]; the contact is solved with them as they are",

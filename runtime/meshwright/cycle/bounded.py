@@ -50,6 +50,7 @@ def bounded(drive, result):
     if not len(rows):
         return result
     found = search.first(result.angles[rows])
+    result = _undecided(result, rows[np.isinf(found.unresolved)])
     late = found.overlaps(result.error[rows]) > OVERLAP
     along = [None if behind else lines.get(int(k)) for k, behind in zip(rows, late, strict=True)]
     judged = zip(along, found.kinds, found.untouched, strict=True)
@@ -59,6 +60,17 @@ def bounded(drive, result):
     kinds = ["line" if line else kind for line, kind in zip(along, found.kinds, strict=True)]
     points = _points(drive, result, rows, kinds, along, found)
     return result.with_rows(rows[told], points.only(told))
+
+
+def _undecided(result, rows):
+    """The same, but at these ``rows`` (R,), where flanks meet whose first contact was not found, it is not said that
+    nothing touches, as Newton's method may have it.
+    """
+    words = [*result.status], [*result.messages]
+    for k in rows:
+        if result.status[k] == "no_contact":
+            words[0][k], words[1][k] = "diverged", status_text("diverged")
+    return replace(result, status=tuple(words[0]), messages=tuple(words[1]))
 
 
 def _points(drive, result, rows, kinds, along, found):

@@ -31,13 +31,20 @@ def centre_distance(drive):
     return float(np.linalg.norm(apart - (apart @ one[0]) * one[0]))
 
 
+def working_radius(drive):
+    """Radius of the wheel's working pitch circle, on parallel axes, mm: members that turn in one direction about their
+    axes roll on circles one in the other.
+    """
+    (one, _), (other, _) = placed(drive, [0.0], [0.0]).axes.values()
+    return centre_distance(drive) / abs(1.0 - float(one[0] @ other[0]) * drive.ratio)
+
+
 def backlash_lengths(mesh, backlash):
     """Backlash (rad of the wheel) on the working pitch circles and along the normal, mm; NaN off parallel axes."""
-    distance = centre_distance(mesh.drive)
-    if not math.isfinite(distance) or mesh.contact is None:
+    if not math.isfinite(centre_distance(mesh.drive)) or mesh.contact is None:
         return math.nan, math.nan
     lever = abs(float(mesh.contact.levers([mesh.middle])[0]))
-    return backlash * distance / (1.0 + mesh.drive.ratio), backlash * lever
+    return backlash * working_radius(mesh.drive), backlash * lever
 
 
 def transverse_contact_ratio(mesh):

@@ -44,6 +44,7 @@ class Finding:
     word: str
     holds: bool
     margin: float
+    meaning: str
 
     @property
     def said(self):
@@ -110,6 +111,6 @@ def sheet(design):
         margin = value(check["margin"], symbols)
         if math.isfinite(margin):
             word, holds = ("occurs", margin < 0.0) if check["occurs"] else ("possible", margin > 0.0)
-            checks[check["name"]] = Finding(word, holds, margin)
+            checks[check["name"]] = Finding(word, holds, margin, check["meaning"])
     return Sheet(design.family, design.as_solved(), sizes, checks)
 

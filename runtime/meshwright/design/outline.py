@@ -6,7 +6,7 @@ import textwrap
 from dataclasses import dataclass
 
 from meshwright.base.errors import UsageError
-from meshwright.base.expression import value
+from meshwright.base.expression import names, value
 from meshwright.design import schema
 from meshwright.design.relations import Completion
 
@@ -42,7 +42,7 @@ def first_design(family, name, words, given, own, determined=None, follow=None):
     """
     determined = dict(determined or {})
     unused = family.unused(words)
-    symbols, chosen, told = dict(given), {}, []
+    symbols, chosen, told, read = dict(given), {}, [], set()
     suggested = {suggestion["place"] for suggestion in family.outline["suggestions"]}
     for suggestion in family.outline["suggestions"]:
         place = suggestion["place"]
@@ -65,6 +65,7 @@ def first_design(family, name, words, given, own, determined=None, follow=None):
             told.append((suggestion["name"], number, suggestion["why"]))
         if place and place not in own | determined and math.isfinite(number):
             chosen[place] = number, suggestion["why"]
+            read.update(*map(names, suggestion["values"]))
     followed = {name for relation in family.drawing.relations for name in relation.sizes}
     unfollowed = {f"{p['table']}.{p['key']}" for p in family.parameters if p["name"] not in followed} - suggested
     alone = {place: (number, ALONE) for place, number in own.items() if place in unfollowed or "." not in place}
@@ -92,6 +93,7 @@ def first_design(family, name, words, given, own, determined=None, follow=None):
                 entry = f"# {place.partition('.')[2]} = {_toml(number)}"
                 lines.append(f"{entry:<44}  # assumed: {why}")
     assumed = tuple((place, number, why) for place, (number, why) in (chosen | taken | alone).items())
+    told = [entry for entry in told if entry[0] in read]
     return FirstDesign("\n".join(lines) + "\n", (*told, *assumed))
 
 

@@ -28,6 +28,9 @@ RESOLUTION = 1e-15
 OFFERED = 4
 TOGETHER = 2
 
+#: Numbers that are no double, or lead to some, are left to the checks of their keys.
+LARGEST = 1e300
+
 #: Where the value of a size comes from.
 GIVEN = "given"
 DERIVED = "derived"
@@ -142,17 +145,43 @@ class Drawing:
 
     def refused(self, tables: Mapping[str, Any]) -> DesignError | None:
         """The error for what raw tables say of a kind of drive that no drive of the family is; None where it is one."""
-        for guard in self.table["guards"]:
-            for place, size in self.places.items():
-                table, _, key = place.partition(".")
-                entries = tables.get(table)
-                shown = entries.get(key) if isinstance(entries, dict) else None
-                number = size["choices"].get(shown, shown) if isinstance(shown, str) else shown
-                if key in guard["keys"] and isinstance(number, int | float) and value(
-                    guard["positive"], Symbols({size["name"]: number * size["factor"]})
-                ) <= 0.0:
+        here = [f"{place} = {shown}" for place, shown, other in self._families(tables) if not other]
+        for place, shown, other in self._families(tables):
+            if other and here:
+                return DesignError(place, shown, f"contradicts {', '.join(here)}", "leave one of them out")
+            if other:
+                reason = f"{other['what']}: such drives are of the family {other['family']}"
+                return DesignError(place, shown, reason, f'write drive = "{other["family"]}"')
+        for place, shown, symbols in self._numbers(tables):
+            key = place.partition(".")[2]
+            for guard in self.table["guards"]:
+                if key in guard["keys"] and value(guard["positive"], symbols) <= 0.0:
                     return DesignError(place, shown, guard["message"], f"change {key}")
         return None
+
+    def other_family(self, tables: Mapping[str, Any]) -> str:
+        """The other family of which a drive with these sizes, raw tables, is; "" where there is none."""
+        found = ["" if other is None else str(other["family"]) for _, _, other in self._families(tables)]
+        return found[0] if found and all(found) else ""
+
+    def _families(self, tables: Mapping[str, Any]) -> Iterator[tuple[str, Any, dict[str, Any] | None]]:
+        """Place and entry of each size given that decides of which family a drive is, and what says that it is not of
+        this one.
+        """
+        for place, shown, symbols in self._numbers(tables):
+            for entry in self.table["elsewhere"]:
+                if names(entry["positive"]) <= symbols.keys():
+                    yield place, shown, entry if value(entry["positive"], symbols) > 0.0 else None
+
+    def _numbers(self, tables: Mapping[str, Any]) -> Iterator[tuple[str, Any, Symbols]]:
+        """Place and entry of each size that raw tables give, and its number in the inner unit, by name."""
+        for place, size in self.places.items():
+            table, _, key = place.partition(".")
+            entries = tables.get(table)
+            shown = entries.get(key) if isinstance(entries, dict) else None
+            number = size["choices"].get(shown, shown) if isinstance(shown, str) else shown
+            if isinstance(number, int | float) and abs(number) < LARGEST:
+                yield place, shown, Symbols({size["name"]: number * size["factor"]})
 
     def converted(self, place: str) -> tuple[dict[str, Any], list[Relation]] | None:
         """What stands for another key, as inches for millimetres: its size, and the relations that lead to that key;

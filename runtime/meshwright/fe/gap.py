@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from meshwright.fe.hexahedra import Floats
 from meshwright.fe.pair import GearPair, Member, PairTouch
@@ -24,10 +23,8 @@ _ON_EDGE = 1e-9
 _OUTLINE = 9
 # Beyond their outlines there may be more of the flanks between those places, in parts of their extent.
 _BEYOND = 0.05
-# Loads close about this part of the extent of the flanks.
-_CLOSED = 2e-4
-# Directions and distances, each half of the next, at which it is seen how far they do.
-_DIRECTIONS, _HALVINGS = 180, 16
+# Differences of the gap about an edge are taken over this part of the extent of the flanks.
+_DIFFERENCE = 0.01
 
 
 @dataclass(frozen=True)
@@ -38,9 +35,11 @@ class ContactGrid:
     cell along a row's way and across it.  frame (N, 3, 3): unit directions along, across and normal, out of the
     pinion; points (N, 3): on the pinion's flank, fixed frame.  gap (N,) in mm along the normal, positive apart.
     row_gap (rows,): the smallest in each row; offset (N,): mm across from the place of that.  free (2, N): cells
-    at a border of the grid, along and across, where the flanks go on.  beyond: by the name of an edge, such as "tip of
-    the wheel", the cells (N,) that it bounds.  place: for each member the fractions (N, 2) of flank arc length and face
-    width; free_edges: where it has free edges, 0 and 1 for arc length and width, and the fraction there.
+    at a border of the grid, along and across, where the flanks go on.  beyond (4, N): by the name of an edge, such as
+    "tip of the wheel", the cells that have it on their side at the begin or the end along, or on either side across;
+    sharp (4, N): 1 for those of them where the mate goes on, 0 where it does not, between where it ends soon.  place:
+    for each member the fractions (N, 2) of flank arc length and face width; free_edges: where it has free edges, 0 and
+    1 for arc length and width, and the fraction there.
     """
 
     rows: int
@@ -54,6 +53,7 @@ class ContactGrid:
     offset: Floats
     free: Bools
     beyond: dict[str, Bools]
+    sharp: Floats
     place: dict[str, Floats]
     free_edges: dict[str, tuple[tuple[int, float], ...]]
 
@@ -61,17 +61,6 @@ class ContactGrid:
     def area(self) -> Floats:
         """Areas (N,) of the cells in mm^2."""
         return 4.0 * self.half.prod(axis=1)
-
-    @property
-    def at_edges(self) -> Bools:
-        """The cells (N,) no further from one that an edge of a flank bounds than half of the widest row: there pressure
-        rises at an edge without limit, if the mate goes on beyond it.
-        """
-        bounded = np.any([np.zeros(len(self.gap), dtype=bool), *self.beyond.values()], axis=0)
-        if not bounded.any():
-            return bounded
-        distance, _ = KDTree(self.points[bounded]).query(self.points)
-        return distance <= self.columns * self.half[:, 1].max()
 
 
 @dataclass(frozen=True)
@@ -89,14 +78,14 @@ class ContactPlane:
     def of(cls, gear: GearPair, contact: PairTouch, angles: tuple[float, float]) -> ContactPlane:
         """angles: pinion and wheel angle in rad of the whole bodies.
 
-        The major axis is the direction of the contact, and of an edge that in which most of the gap is closed.
+        The major axis is the direction of the contact: that in which the gap bends least.
         """
         touch = contact.touch
         if np.isfinite(touch.major_direction).all():
             return cls._along(gear, contact, angles, touch.major_direction)
         some = np.linalg.svd(touch.normal[None])[2][1]
         plane = cls._along(gear, contact, angles, some)
-        return cls._along(gear, contact, angles, plane._longest())
+        return cls._along(gear, contact, angles, plane._least_bent())
 
     @classmethod
     def _along(
@@ -111,22 +100,16 @@ class ContactPlane:
         }  # fmt: skip
         return cls(contact, axes, flanks)
 
-    def _longest(self) -> Floats:
-        """Unit direction (3,) in the plane in which the place about the contact is longest where both flanks are less
-        than what loads close apart.
-        """
-        size = float(np.min(np.diff(self.extents(), axis=0)))
-        angles = 2.0 * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
-        ways = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-        radii = size * 0.5 ** np.arange(_HALVINGS)[::-1]
-        gap, inside = self.gaps(self.feet((ways[:, None] * radii[:, None]).reshape(-1, 2)))
-        closed = (inside & (gap < _CLOSED * size + np.nanmin(np.where(inside, gap, np.nan), initial=0.0))).reshape(
-            len(angles), -1
-        )
-        count = np.where(closed.all(axis=1), len(radii), np.argmin(closed, axis=1))
-        reach = np.where(count > 0, radii[count - 1], 0.0)
-        _, axes = np.linalg.eigh(np.einsum("k,ki,kj->ij", reach**4, ways, ways))
-        return axes[:, 1] @ self.axes[:2]
+    def _least_bent(self) -> Floats:
+        """Unit direction (3,) in the plane in which the gap of the surfaces bends least at the contact."""
+        step = _DIFFERENCE * float(np.min(np.diff(self.extents(), axis=0)))
+        x, y = np.meshgrid(*([-step, 0.0, step],) * 2, indexing="ij")
+        gap, _ = self.gaps(self.feet(np.stack([x, y], axis=-1).reshape(-1, 2)))
+        gap = gap.reshape(3, 3)
+        bent = np.diag([gap[0, 1] - 2.0 * gap[1, 1] + gap[2, 1], gap[1, 0] - 2.0 * gap[1, 1] + gap[1, 2]])
+        bent[[0, 1], [1, 0]] = 0.25 * (gap[2, 2] - gap[2, 0] - gap[0, 2] + gap[0, 0])
+        _, axes = np.linalg.eigh(bent)
+        return axes[:, 0] @ self.axes[:2]
 
     def feet(self, centres: Floats) -> Floats:
         """Points (N, 3) of the plane, fixed frame, that are (N, 2) mm from the contact along its axes."""

@@ -19,6 +19,7 @@ from scipy.spatial import KDTree
 
 from meshwright.fe.cells import Cells
 from meshwright.fe.compliance import ToothCompliance
+from meshwright.fe.edge_zone import EdgeZone
 from meshwright.fe.gap import Bools, ContactGrid, ContactPlane
 from meshwright.fe.gate import LARGEST_ROTATION
 from meshwright.fe.hertz import HertzContact, line_contact
@@ -37,6 +38,8 @@ _CELLS = (21, 15), (31, 21), (47, 25), (71, 29)
 _ENOUGH = 1
 # What may change with finer cells: rotation, forces, and peaks of pressure, of pairs that carry much.
 _SETTLED = 0.01
+# The same of peaks of pairs that a sharp edge presses, which the cells beside it still change.
+_BESIDE_EDGES = 0.05
 # How often the cells are laid out wider where pressure reaches a free border of theirs.
 _WIDENINGS = 5
 # How much wider.
@@ -60,6 +63,8 @@ _TOUCHING = 0.5
 _TEETH_SOFTER = 2.0
 # Peaks below this part of the least that lines can carry the load with are false.
 _POSSIBLE = 0.98
+# Flanks that touch first overlap by less than this, mm.
+_NO_OVERLAP = 0.01
 # Moments of pressures and the torque differ by less than this part.
 _EQUILIBRIUM = 1e-3
 
@@ -77,15 +82,20 @@ class LoadedPair:
     apart: float
     hertz: HertzContact | None
 
+    @cached_property
+    def edge_zone(self) -> EdgeZone:
+        """What presses beside sharp edges of the flanks, and the peak of the free contact."""
+        return EdgeZone.of(self.grid, self.pressures)
+
     @property
     def peak_pressure(self) -> float:
-        """Largest cell pressure in MPa."""
-        return float(self.pressures.max())
+        """Largest pressure in MPa of the free contact, away from sharp edges of the flanks."""
+        return self.edge_zone.peak
 
     @property
     def peaks_at_edge(self) -> bool:
-        """Whether the largest pressure is at an edge of a flank."""
-        return self.force > 0.0 and bool(self.grid.at_edges[np.argmax(self.pressures)])
+        """Whether pressure is higher than that beside a sharp edge of a flank."""
+        return bool(self.pressures.max() > self.peak_pressure)
 
     @property
     def cut_off(self) -> bool:
@@ -95,7 +105,7 @@ class LoadedPair:
     @property
     def edges(self) -> tuple[str, ...]:
         """The edges that do, such as "tip of the wheel"."""
-        return tuple(name for name, cells in self.grid.beyond.items() if np.any(self.pressures[cells] > 0.0))
+        return tuple(name for name, cells in self.grid.beyond.items() if np.any(cells & (self.pressures > 0.0)))
 
     @property
     def line(self) -> Floats:
@@ -268,7 +278,8 @@ class _Solution:
     def settled(self, before: _Solution) -> bool:
         """Whether nothing is left that finer cells than ``before`` change by much.
 
-        Where pressure peaks at an edge of a flank it does so the more the finer the cells; forces hold.
+        Forces hold everywhere; peaks do of pairs that carry much, less well where a sharp edge presses, and not where
+        that carries most.
         """
         if any(before.idle(place) != self.idle(place) for place in {*before.places, *self.places}):
             return False
@@ -277,15 +288,17 @@ class _Solution:
         least = _LEAST_SHARE * self.forces.sum()
         if np.any(np.abs(self.forces - before.forces) > _SETTLED * np.maximum(self.forces, least)):
             return False
-        (old, old_edges), (new, new_edges) = before.peaks, self.peaks
-        return bool(np.all((np.abs(new - old) < _SETTLED * new.max()) | (old_edges & new_edges)))
+        told = [
+            (new.peak, abs(new.peak - old.peak), _SETTLED if new.depth is None else _BESIDE_EDGES)
+            for force, new, old in zip(self.forces, self.edge_zones, before.edge_zones, strict=True)
+            if force > least and not (new.holds and old.holds)
+        ]
+        return all(change < part * max(told)[0] for _, change, part in told)
 
-    @property
-    def peaks(self) -> tuple[Floats, Bools]:
-        """The largest pressure in MPa of each pair, and whether it is at an edge of a flank."""
-        at = [int(np.argmax(p)) for p in self.pressures]
-        peaks = np.array([p[k] for p, k in zip(self.pressures, at, strict=True)])
-        return peaks, np.array([grid.at_edges[k] for grid, k in zip(self.grids, at, strict=True)])
+    @cached_property
+    def edge_zones(self) -> tuple[EdgeZone, ...]:
+        """What presses beside sharp edges of each pair, and the peak away from them."""
+        return tuple(EdgeZone.of(grid, p) for grid, p in zip(self.grids, self.pressures, strict=True))
 
     def impossible(self, member: Member, load: Load) -> str:
         """What no load on these flanks could give, empty where there is nothing of the kind."""
@@ -294,6 +307,12 @@ class _Solution:
         )
         if not abs(moment / load.torque - 1.0) < _EQUILIBRIUM:
             return f"pressures have a moment of {moment / 1000.0:.5g} N m, not {load.torque / 1000.0:.5g} N m"
+        for place, grid in zip(self.places, self.grids, strict=True):
+            if grid.gap.min() < -max(self.closing(place), _NO_OVERLAP):
+                return (
+                    f"surfaces of a pair overlap by {-grid.gap.min():.3g} mm where its "
+                    "flanks touch first: beside an undercut normals meet another sheet than the flank"
+                )
         for place, window, p, force in zip(self.places, self.windows, self.pressures, self.forces, strict=True):
             least = place.least_peak(force, self.closing(place), window.width) if force > 0.0 else 0.0
             if not p.max() >= _POSSIBLE * least:
@@ -345,7 +364,8 @@ def _resolved(
             return replace(found, unresolved=found.impossible(member, load))
         level, settled = level + 1, found
         if level == len(_CELLS):
-            return replace(found, unresolved="finer cells go on changing force, rotation or the peak of pressure")
+            reason = found.impossible(member, load) or "finer cells go on changing force, rotation or the peak"
+            return replace(found, unresolved=reason)
         cells = _CELLS[level]
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -21,6 +21,8 @@ from meshwright.fe.hexahedra import Floats
 
 # Stations along the strip at which its curve is sought.
 _STATIONS = 41
+# Places on both flanks that make a curve.
+_FEWEST = 3
 # Places across the flanks among which the start of that search is chosen.
 _STARTS = 17
 # Newton steps of that search.
@@ -39,9 +41,15 @@ _KNOWN = 1e-10
 _END_STATIONS, _END_ROUNDS = 16, 5
 # What bounds a cell is told so far beyond its border, in parts of the width of the strip.
 _BEYOND = 1e-4
-# Cells across a curve that bends sharply are at least so long on its inside, in parts of their row.
+# Edges are sharp where the mate goes on so far beyond them, in parts of its flank.
+_SHARP = 0.01
+# Places in each interval of its stations at which the length and the way of a strip's curve are known.
+_FINER = 10
+# Rows turn by no more than this over a length of the curve as long as their own half width, rad.
+_TURN = 0.5
+# Cells on the inside of a bend are at least so long, in parts of their row: beyond a row's own half width.
 _LEAST_LENGTH = 0.1
-# Rows at an end are so much shorter than those in the middle.
+# Cells at an edge are so much shorter than the mean.
 _SHORTER = 0.6
 
 
@@ -78,7 +86,8 @@ class Strip:
     """A curve in the contact plane, given across its first axis.
 
     ends: where both flanks may lie along that axis, mm; reach: extent across, mm.  along: stations (K,) of the first
-    axis; curve: coordinate along the second one at the first.
+    axis; curve: coordinate along the second one at the first.  turned: angle in rad from the first axis to the way that
+    rows lie straight across, None for that of the curve.
     """
 
     plane: ContactPlane
@@ -86,13 +95,36 @@ class Strip:
     reach: float
     along: Floats
     curve: Callable[..., Floats]
+    turned: Callable[[Floats], Floats] | None = None
 
     @classmethod
     def of(cls, plane: ContactPlane) -> Strip:
         (first, low), (last, high) = plane.extents()
         along = np.linspace(first, last, _STATIONS)
         across = _least_gap(plane, along, low, high)
-        return cls(plane, (float(first), float(last)), float(high - low), along, PchipInterpolator(along, across))
+        ends, reach = (float(first), float(last)), float(high - low)
+        strip = cls(plane, ends, reach, along, PchipInterpolator(along, across))
+        return strip._along_edges() if plane.contact.touch.edge else strip
+
+    def _along_edges(self) -> Strip:
+        """The strip whose curve, where that of the surfaces leaves the flanks, goes along their edges."""
+        offset = self.nearest(self.along)
+        known = np.isfinite(offset)
+        if not np.any(offset[known]):
+            return self
+        along, across = self.at(self.along[known], offset[known]).T
+        onward = along > np.maximum.accumulate(np.insert(along, 0, self.ends[0]))[:-1]
+        along, across = along[onward], across[onward]
+        if len(along) < _FEWEST:
+            return self
+        slopes = np.diff(across)[[0, -1]] / np.diff(along)[[0, -1]]
+        before, after = (np.array([at]) if side * (at - along[k]) > 0.0 else np.empty(0)
+                         for at, k, side in zip(self.ends, (0, -1), (-1.0, 1.0), strict=True))  # fmt: skip
+        across = np.concatenate([
+            across[0] + slopes[0] * (before - along[0]), across, across[-1] + slopes[1] * (after - along[-1])
+        ])  # fmt: skip
+        along = np.concatenate([before, along, after])
+        return replace(self, along=along, curve=PchipInterpolator(along, across))
 
     def at(self, along: Floats, offset: Floats) -> Floats:
         """Coordinates (..., 2) in the contact plane at stations and mm to the left of the curve there, of one shape."""
@@ -100,10 +132,31 @@ class Strip:
         return np.stack([along, self.curve(along)], axis=-1) + offset[..., None] * way[..., 1, :]
 
     def directions(self, along: Floats) -> Floats:
-        """Unit directions (..., 2, 2) along the curve and to its left, in the contact plane."""
-        slope = self.curve(along, 1)
-        way = np.stack([np.ones_like(slope), slope], axis=-1) / np.hypot(1.0, slope)[..., None]
+        """Unit directions (..., 2, 2) straight across rows and along them, to the left, in the contact plane."""
+        angle = self.way(along)
+        way = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
         return np.stack([way, np.stack([-way[..., 1], way[..., 0]], axis=-1)], axis=-2)
+
+    def way(self, along: Floats) -> Floats:
+        """Angle (...,) in rad from the first axis to the way that rows lie straight across."""
+        return np.arctan(self.curve(along, 1)) if self.turned is None else self.turned(along)
+
+    @cached_property
+    def _measured(self) -> tuple[Floats, Floats]:
+        """Stations (F,) from end to end, and the length (F,) of the curve up to them, mm."""
+        along = np.linspace(*self.ends, _FINER * _STATIONS)
+        middles = 0.5 * (along[1:] + along[:-1])
+        return along, np.insert(np.cumsum(np.diff(along) * np.hypot(1.0, self.curve(middles, 1))), 0, 0.0)
+
+    def _without_crossing(self, width: float) -> Strip:
+        """The strip with rows so wide, to either side, that do not cross where its curve bends, as at a corner: their
+        ways turn with it as fast as they may, before it bends and after.
+        """
+        along, length = self._measured
+        way = self.way(along)
+        most = _TURN / width * np.abs(length[:, None] - length)
+        turned = 0.5 * ((way + most).min(axis=1) + (way - most).max(axis=1))
+        return replace(self, turned=lambda at: np.interp(at, along, turned))
 
     def margin(self, along: Floats, offset: Floats) -> Floats:
         """How far (...,) places of the strip are within both flanks, in parts of the flanks."""
@@ -227,18 +280,20 @@ class Strip:
         ends = self._closed(window.closing)
         if ends is None:
             return None
-        first, last = ends
-        share = np.linspace(0.0, 1.0, rows + 1)
-        beyond = np.array([first - _BEYOND * self.reach, last + _BEYOND * self.reach])
-        if np.any(self.margin(beyond, np.zeros(2)) < 0.0):
-            share = share - _SHORTER * np.sin(2.0 * np.pi * share) / (2.0 * np.pi)
-        bounds = first + (last - first) * share
-        along = 0.5 * (bounds[1:] + bounds[:-1])
+        beyond = ends + _BEYOND * self.reach * np.array([-1.0, 1.0])
+        stations, lengths = self._measured
+        first, last = np.interp(ends, stations, lengths)
+        bounds = first + (last - first) * _shares(rows, *(self.margin(beyond, np.zeros(2)) < 0.0)[:, None])
+        along, bounds = (np.interp(at, lengths, stations) for at in (0.5 * (bounds[1:] + bounds[:-1]), bounds))
+        return self._without_crossing(window.width)._divided(along, bounds, window.width, columns)
+
+    def _divided(self, along: Floats, bounds: Floats, width: float, columns: int) -> ContactGrid:
+        """The cells of rows at stations (R,) between others (R + 1,)."""
         middle = self.nearest(along)
         known = np.isfinite(middle)
-        along, middle, steps = along[known], middle[known], np.diff(bounds)[known]
-        sides, cut = zip(*(self._side(along, middle, sign * window.width) for sign in (-1.0, 1.0)), strict=True)
-        return self._cells(along, steps, middle, np.stack(sides), np.stack(cut), columns)
+        along, middle, borders = along[known], middle[known], np.stack([bounds[:-1], bounds[1:]])[:, known]
+        sides, cut = zip(*(self._side(along, middle, sign * width) for sign in (-1.0, 1.0)), strict=True)
+        return self._cells(along, borders, middle, np.stack(sides), np.stack(cut), columns)
 
     def _closed(self, closing: float) -> Floats | None:
         """The first and the last station (2,) at which the gap is less than ``closing``; None where it is nowhere."""
@@ -272,12 +327,11 @@ class Strip:
         return end, cut
 
     def _cells(
-        self, along: Floats, steps: Floats, middle: Floats, sides: Floats, cut: Bools, columns: int
+        self, along: Floats, bounds: Floats, middle: Floats, sides: Floats, cut: Bools, columns: int
     ) -> ContactGrid:
         rows = len(along)
-        size = (sides[1] - sides[0]) / columns
-        share = (np.arange(columns) + 0.5) / columns
-        offsets = sides[0][:, None] + (sides[1] - sides[0])[:, None] * share
+        borders = sides[0][:, None] + (sides[1] - sides[0])[:, None] * _shares(columns, *cut[:, :, None])
+        size, offsets = np.diff(borders, axis=1), 0.5 * (borders[:, 1:] + borders[:, :-1])
         stations = np.broadcast_to(along[:, None], offsets.shape)
         centres = self.at(stations, offsets).reshape(-1, 2)
         feet = self.plane.feet(centres)
@@ -289,49 +343,69 @@ class Strip:
         normals, upright = of["pinion"].normals, of["pinion"].normals @ up
         frame, longer = self._on_flank(np.repeat(along, columns), normals)
         # Rows across a bent curve are longer on its outside, as their centres are further apart there.
-        begin, end = (np.arctan(self.curve(along + side * steps, 1)) for side in (-0.5, 0.5))
-        middle_length = (steps * np.hypot(1.0, self.curve(along, 1)))[:, None]
-        length = np.maximum(middle_length - offsets * (end - begin)[:, None], _LEAST_LENGTH * middle_length)
-        half = 0.5 * longer * np.stack([length.ravel(), np.repeat(size, columns)], axis=1)
-        free, beyond = self._bounds(along, steps, offsets, sides, cut)
+        begin, end = self.at(bounds, np.zeros_like(bounds))
+        straight = np.einsum("ri,ri->r", end - begin, self.directions(along)[:, 0])[:, None]
+        turn = np.diff(self.way(bounds), axis=0).T
+        length = np.maximum(straight - offsets * turn, _LEAST_LENGTH * straight)
+        half = 0.5 * longer * np.stack([length.ravel(), size.ravel()], axis=1)
+        free, beyond, sharp = self._bounds(along, bounds, offsets, sides, cut)
         middle_foot = feet.mean(axis=0)
         place = {name: flank.place(of[name], middle_foot) for name, flank in self.plane.flanks.items()}
         return ContactGrid(
             rows, columns, centres, half, frame, points, gap * upright, self.least(along, middle),
-            (offsets - middle[:, None]).ravel(), free.reshape(2, -1), beyond, place,
+            (offsets - middle[:, None]).ravel(), free.reshape(2, -1), beyond, sharp, place,
             {name: flank.free_edges for name, flank in self.plane.flanks.items()},
         )  # fmt: skip
 
     def _bounds(
-        self, along: Floats, steps: Floats, offsets: Floats, sides: Floats, cut: Bools
-    ) -> tuple[Bools, dict[str, Bools]]:
-        """The cells (2, R, C) at free borders of the grid along and across, and by the name of an edge those (R C,)
-        that it bounds.
+        self, along: Floats, bounds: Floats, offsets: Floats, sides: Floats, cut: Bools
+    ) -> tuple[Bools, dict[str, Bools], Floats]:
+        """The cells (2, R, C) at free borders of the grid along and across, by the name of an edge those (4, R C) that
+        it bounds at either end and on either side, and how sharp edges are there.
         """
         rows, columns = offsets.shape
         number = np.arange(rows * columns).reshape(rows, columns)
         free = np.zeros((2, rows, columns), dtype=bool)
         away = _BEYOND * self.reach
-        cells, stations, beyond = [], [], []
+        sides_of, cells, stations, beyond = [], [], [], []
         for side, column in ((0, 0), (1, -1)):
             free[1, ~cut[side], column] = True
             cells.append(number[cut[side], column])
+            sides_of.append(np.full(len(cells[-1]), 2 + side))
             stations.append(along[cut[side]])
             beyond.append(sides[side][cut[side]] + (away if side else -away))
-        for end, row in ((-1.0, 0), (1.0, -1)):
-            cells.append(number[row])
-            stations.append(np.full(columns, along[row] + (0.5 * steps[row] + away) * end))
-            beyond.append(offsets[row])
-            free[0, row] = self.margin(stations[-1], offsets[row]) >= 0.0
+        for end, row in ((0, 0), (1, -1)):
+            station = bounds[end, row] + away * (1.0 if end else -1.0)
+            free[0, row] = self.margin(np.full(columns, station), offsets[row]) >= 0.0
+            ended = ~free[0, row]
+            cells.append(number[row, ended])
+            sides_of.append(np.full(len(cells[-1]), end))
+            stations.append(np.full(len(cells[-1]), station))
+            beyond.append(offsets[row, ended])
+        at = np.concatenate(sides_of), np.concatenate(cells)
         names: dict[str, Bools] = {}
-        cell, place = np.concatenate(cells), self.at(np.concatenate(stations), np.concatenate(beyond))
-        for name, of in self.plane.footprints(self.plane.feet(place)).items():
+        sharp = np.zeros((4, rows * columns))
+        place = self.at(np.concatenate(stations), np.concatenate(beyond))
+        footprints = self.plane.footprints(self.plane.feet(place))
+        goes_on = np.max([of.margin for of in footprints.values()], axis=0)
+        sharp[at] = np.clip(goes_on / _SHARP, 0.0, 1.0)
+        for name, of in footprints.items():
             for edge, margin in of.margins.items():
-                bounds = np.zeros(rows * columns, dtype=bool)
-                bounds[cell[of.pierced & (margin < 0.0)]] = True
+                bounds = np.zeros(sharp.shape, dtype=bool)
+                bounds[tuple(one[of.pierced & (margin < 0.0)] for one in at)] = True
                 if bounds.any():
                     names[f"{edge} of the {name}"] = bounds
-        return free, names
+        return free, names, sharp
+
+
+def _shares(count: int, first: Bools, last: Bools) -> Floats:
+    """Shares (..., count + 1) of a length at the borders of its parts, the shorter the nearer to an edge, where there
+    is one (..., 1) at the first and the last.
+    """
+    share = np.linspace(0.0, 1.0, count + 1)
+    one = _SHORTER * np.sin(np.pi * share) / np.pi
+    both = 0.5 * _SHORTER * np.sin(2.0 * np.pi * share) / np.pi
+    return share - np.where(first & last, both, (first.astype(float) - last) * one)
 
 
 def _last(holds: Callable[[Floats], Bools], inner: Floats, outer: Floats) -> Floats:

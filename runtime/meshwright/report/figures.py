@@ -94,7 +94,8 @@ def _loaded(document):
     return Picture(
         "loaded",
         f"Under {text_of(document['torque_nm'])} N m on the {document['torque_on']}",
-        "Over one pitch, elastic teeth: transmission error, how the pairs share the load, and their peak pressure. "
+        "Over one pitch, elastic teeth: transmission error, how the pairs share the load, and their peak pressure, "
+        "of what an edge presses that of the free contact away from it; of a pair that an edge carries there is none. "
         "Gaps are angles for which the method has no figures.",
         loaded_figure.draw,
     )

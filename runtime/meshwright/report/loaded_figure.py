@@ -4,6 +4,9 @@ import numpy as np
 
 from meshwright.report import style
 
+#: The axis of pressure is so much higher than the highest peak of a pair that carries more than this part of the load.
+ROOM, LEAST_SHARE = 1.1, 0.1
+
 
 def draw(analysis):
     """Loaded transmission error, and share and pressure of every pair that carries, over the pinion angle."""
@@ -22,9 +25,15 @@ def draw(analysis):
             axes.plot(angles, values, color=colour, marker=".", label="this pair" if number == 0 else None)
     share.set(ylabel="share of the load", ylim=(0.0, 1.05))
     share.legend(loc="lower right", bbox_to_anchor=(1.0, 0.98), borderaxespad=0.0)
-    pressure.set(xlabel="pinion angle, deg", ylabel="peak pressure, MPa", ylim=(0.0, None))
+    carrying = [pair for point in points for pair in point["pairs"] if pair["share"] > LEAST_SHARE]
+    highest = max((pair["peak_pressure_mpa"] for pair in carrying if not pair.get("carried_by_edge")), default=None)
+    pressure.set(xlabel="pinion angle, deg", ylabel="peak pressure, MPa", ylim=(0.0, highest and ROOM * highest))
     return figure
 
 
 def _of(point, number, key):
-    return next((pair[key] for pair in point["pairs"] if pair["pairs_later"] == number), np.nan)
+    """What a pair has, not a number where an edge carries it and its peak of pressure would dwarf all others."""
+    pair = next((pair for pair in point["pairs"] if pair["pairs_later"] == number), None)
+    if pair is None or (key == "peak_pressure_mpa" and pair.get("carried_by_edge")):
+        return np.nan
+    return pair[key]

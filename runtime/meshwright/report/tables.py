@@ -117,7 +117,7 @@ def _prefixes(analysis):
     design = analysis.drive.design
     pinion = design.description["pinion_teeth"]
     counted = [p["key"] for p in design.description["parameters"] if p["table"] == "design" and p["integer"]]
-    wheel = [key for key in counted if key != pinion and design.value(key) == analysis.teeth["wheel"]]
+    wheel = [key for key in counted if key != pinion and abs(design.value(key)) == analysis.teeth["wheel"]]
     wheel.sort(key=lambda key: key.rpartition("_")[2] not in ("teeth", "threads"))
     return {"pinion": pinion.partition("_")[0], "wheel": (wheel or ["wheel"])[0].partition("_")[0]}
 

@@ -186,7 +186,7 @@ def _outline():
     )
 
 
-def internal_gears():
+def own_ring():
     """The pair."""
     definitions = Definitions()
     phi_1 = rotation_angle("phi_pinion", "angle of the pinion in mesh", "f")
@@ -207,8 +207,8 @@ def internal_gears():
         rules.append(Rule(member.tip_radius.symbol, member.pitch_radius + member.inside * m))
         rules.append(Rule(member.form_radius.symbol, member.pitch_radius - member.inside * sp.Rational(9, 10) * m))
     return Drive(
-        name="internal_gears",
-        family="internal-gears",
+        name="own_ring",
+        family="own-ring",
         title="Crowned pinion in an internal gear",
         parameters=(
             flank, module, pressure_angle, helix_angle, *PINION.parameters, *WHEEL.parameters, face_width, crowning,
@@ -250,4 +250,4 @@ def internal_gears():
 
 def catalogue():
     """The one drive of this file."""
-    return {"internal_gears": internal_gears}
+    return {"own_ring": own_ring}

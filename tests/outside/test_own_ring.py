@@ -30,7 +30,7 @@ DESIGN = {
     "normal_module_mm": M, "pressure_angle_deg": 20.0, "helix_angle_deg": 12.0, "pinion_teeth": T[0],
     "wheel_teeth": T[1], "face_width_mm": F, "pinion_lead_crowning_um": 1000 * CROWN,
 }  # fmt: skip
-TABLES = {"drive": "internal-gears", "name": "ring", "design": DESIGN}
+TABLES = {"drive": "own-ring", "name": "ring", "design": DESIGN}
 ERRORS = {"center_distance_mm": 0.05, "out_of_plane_deg": 0.03, "in_plane_deg": -0.02}
 
 
@@ -271,7 +271,7 @@ def test_under_load_the_pairs_carry_the_torque(run):
 
 def test_a_first_design_is_written_from_what_the_file_declares(folder, tmp_path, capsys):
     path = tmp_path / "first.toml"
-    assert main(["--drives", str(folder), "new", "internal-gears", "--m", "3", "--z", "30:72", "--out", str(path)]) == 0
+    assert main(["--drives", str(folder), "new", "own-ring", "--m", "3", "--z", "30:72", "--out", str(path)]) == 0
     assert f"meshwright --drives {folder} tca {path}\n" in capsys.readouterr().out
     assert Drive.load(path, drives=folder).tca([0.0]).status == ("converged",)
 
@@ -284,5 +284,5 @@ def test_a_size_that_follows_from_others_is_refused_with_its_value(drive):
 
 
 def test_the_audit_entry_holds(folder):
-    entry = json.loads((folder / "audit" / "internal_gears.json").read_text(encoding="utf-8"))
+    entry = json.loads((folder / "audit" / "own_ring.json").read_text(encoding="utf-8"))
     assert set(entry["checked"].values()) == {"holds"} and entry["not_proved"] == {}
