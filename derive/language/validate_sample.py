@@ -220,10 +220,10 @@ def validate_ratio(drive: Drive, observed: Observed, values: Numbers) -> None:
     key = next(p for p in drive.parameters if drive.pinion_teeth in (p.key, p.place))
     ratio, found = float(value_of(drive.law, values, drive.definitions)), float(pinion / wheel)
     teeth = float(values[key.symbol])
-    off = abs(found / ratio - 1.0) * max(teeth, teeth / ratio)
+    off = abs(found / ratio - 1.0) * max(teeth, teeth / abs(ratio))
     if off <= OFF_TEETH:
         return
-    if found < 0.0:
+    if found * ratio < 0.0:
         remedy = f"turn the sense of the wheel's motion, or that of {drive.instant} in one of the motions"
     else:
         remedy = (
