@@ -383,11 +383,11 @@ def _indexed(drive: Drive) -> Iterator[str]:
     """
     key = next(p for p in drive.parameters if drive.pinion_teeth in (p.key, p.place))
     count = sp.sympify(key.symbol / drive.definitions.resolve(drive.law))
-    whole = [p.symbol for p in drive.parameters if p.integer or p.choices]
+    whole = {p.symbol: -1 if p.symbol.domain[1] <= 0 else 1 for p in drive.parameters if p.integer or p.choices}
     if drive.definitions.free(count) - {*whole}:
         return
     for k in range(1, COUNTED + 1):
-        places = {q: sp.Integer(sp.prime(k + 3 * n + 2)) for n, q in enumerate(whole)}
+        places = {q: sense * sp.Integer(sp.prime(k + 3 * n + 2)) for n, (q, sense) in enumerate(whole.items())}
         teeth = replaced(count, places)
         if not (isinstance(teeth, sp.Integer) and int(teeth) != 0):
             at = ", ".join(f"{q} = {places[q]}" for q in whole if drive.definitions.depends(count, q))
