@@ -389,11 +389,12 @@ def _indexed(drive: Drive) -> Iterator[str]:
     for k in range(1, COUNTED + 1):
         places = {q: sense * sp.Integer(sp.prime(k + 3 * n + 2)) for n, (q, sense) in enumerate(whole.items())}
         teeth = replaced(count, places)
-        if not (isinstance(teeth, sp.Integer) and int(teeth) != 0):
+        if not (isinstance(teeth, sp.Integer) and int(teeth) > 0):
             at = ", ".join(f"{q} = {places[q]}" for q in whole if drive.definitions.depends(count, q))
             yield (
                 f"the motion of the wheel gives it {_short(count)} teeth to {key.symbol} of {key.key!r}: {teeth} where "
-                f"{at}; it needs a whole number of them: turn it by {key.symbol} over its teeth times {drive.instant}"
+                f"{at}; it needs a whole number of them: turn it by {key.symbol} over its teeth times {drive.instant}, "
+                f"in the sense of {drive.error}"
             )
 
 

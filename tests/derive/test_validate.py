@@ -192,6 +192,7 @@ CASES = {
     "motion of a tooth that is not whole": (
         lambda d: _turning(d, 2 * d.law / 3), r"gives it 3\*T_2/2 teeth .* it needs a whole number of them"
     ),
+    "motion of another sense than the error": (lambda d: _turning(d, -d.law), "-T_2 teeth.*in the sense of"),
     "motion of strangers": (lambda d: _turning(d, sp.Symbol("q")), "turns it by what needs q, which nothing gives"),
     "motion at rest": (lambda d: _turning(d, sp.S.Zero), "the ratio is zero, phi_pinion does not turn it"),
     "motion that travels too": (
