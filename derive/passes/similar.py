@@ -1,8 +1,8 @@
 """Lengths and numbers are not added: a drive of twice the lengths is the same drive, twice as large.
 
-Whatever is formed of lengths grows by the same power of two where all of them are doubled, and doubled once more: at
-the sample's contact, keys that are zero there a little off it, and at any place of further surfaces and functions.
-Rules complete the doubled design to the doubled one. Input: a drive's equations on a tape with a solved contact.
+Rules complete the doubled design to the doubled one. Guards, limits and functions grow by the same power of two where
+all lengths are doubled, and doubled once more: at the sample's contact, keys that are zero there a little off it, and
+at any place of further surfaces and functions. Input: a drive's equations on a tape with a solved contact.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -56,21 +56,25 @@ def _of_rules(plan: Schedule) -> Iterator[str]:
 
 
 def _of_expressions(plan: Schedule) -> Iterator[str]:
-    drive, copy = plan.drive, plan.copy()
-    named = [(f"the intermediate result {symbol}", copy.lower(symbol), None) for symbol, _ in drive.definitions.items()]
-    named += [(f"equation {k} of contact", node, None) for k, node in enumerate(plan.residual, 1)]
-    named += [(f"the guard {g.message!r}", copy.lower(g.positive), None) for g in drive.guards]
+    """Guards; limits and functions too, unless a surface has a length that is written as a number: it has one size."""
+    copy = plan.copy()
     outputs = [("the contact", o) for o in plan.observed]
     outputs += [(f"the {f.region} of the {f.body}", o) for f in (*plan.flanks, *plan.regions) for o in f.outputs]
+    surfaces = [(where, o) for where, o in outputs if o.name.startswith(("point", "normal"))]
     # the first function is the placement, whose numbers are of several units
-    outputs += [(f"the function {f.name}", o) for f in plan.functions[1:] for o in f.outputs]
-    for where, o in outputs:
-        free = not o.unit and o.name != "normal"
-        named += [(f"{o.name} of {where}", node, None if free else _power(o.unit)) for node in o.nodes]
-    values = _values(copy, [node for _, node, _ in named])
-    for what, node, power in named:
-        if (grown := values[node]) is not None and not _homogeneous(grown, power):
-            yield f"{what} is another one"
+    others = [(f"the function {f.name}", o) for f in plan.functions[1:] for o in f.outputs]
+    others += [(where, o) for where, o in outputs if o.name.startswith("margin")]
+    guards = [(f"the guard {g.message!r}", copy.lower(g.positive)) for g in plan.drive.guards]
+    nodes = [i for _, o in (*surfaces, *others) for i in o.nodes]
+    values = _values(copy, [*nodes, *(node for _, node in guards)])
+
+    def wrong(node: int, unit: str) -> bool:
+        return (grown := values[node]) is not None and not _homogeneous(grown, _power(unit) if unit else None)
+
+    yield from (f"{what} is another one" for what, node in guards if wrong(node, ""))
+    if not any(wrong(i, o.unit) for _, o in surfaces for i in o.nodes):
+        unlike = ((where, o) for where, o in others if any(wrong(i, o.unit) for i in o.nodes))
+        yield from (f"{o.name} of {where} is another one" for where, o in unlike)
 
 
 def _homogeneous(grown: list[Any], power: int | None) -> bool:
