@@ -32,6 +32,7 @@ from derive.language.validate_sample import (
     validate_limits,
     validate_normals,
     validate_place,
+    validate_play,
     validate_ratio,
     validate_regions,
 )
@@ -41,10 +42,12 @@ from derive.passes.arrange import arrange, side_by_side, unfused
 from derive.passes.completion import at_end
 from derive.passes.equations import derive
 from derive.passes.joints import joints
+from derive.passes.other_flank import on_other_flank
 from derive.passes.pivot_order import reduce
 from derive.passes.plan import Schedule
 from derive.passes.sample import observation
 from derive.passes.schedule import scheduled
+from derive.passes.similar import similar
 from derive.passes.tangents import differentiate
 from derive.refusals import told
 from meshwright.base import worker
@@ -146,19 +149,31 @@ def define(build: Callable[[], Drive]) -> Drive:
     return drive
 
 
-def checked(plan):
-    """Files of a schedule that rest on no proof: path and text. An error unless its normals point out of both bodies,
-    its flanks transmit its ratio, its limits have values and hold at the sample's contact, and its regions go on from
-    the flanks.
+def sound(plan: Schedule) -> None:
+    """Raise an error unless a drive is the same for all sizes, its normals point out of both bodies and its flanks
+    transmit its ratio, both flanks those of a tooth that does not jam, its limits have values and hold at the sample's
+    contact, and its regions go on from the flanks.
     """
-    from derive.emit import casadi  # CasADi and NumPy take as long to load as to use
-
     observed = observation(plan)
-    validate_normals(plan.drive, observed, plan.sample)
-    validate_ratio(plan.drive, observed, plan.sample)
+    similar(plan)
+    contacts = [(observed, plan.sample)]
+    if other := on_other_flank(plan):
+        contacts.append((observation(other), other.sample))
+    for of_flank, values in contacts:
+        validate_normals(plan.drive, of_flank, values)
+        validate_ratio(plan.drive, of_flank, values)
+    if other:
+        validate_play(plan.drive, contacts)
     validate_limits(plan.drive, observed, plan.sample)
     validate_place(plan.drive, observed)
     validate_regions(plan.drive, joints(plan))
+
+
+def checked(plan):
+    """Files of a schedule that rest on no proof: path and text. An error unless it is :func:`sound`."""
+    from derive.emit import casadi  # CasADi and NumPy take as long to load as to use
+
+    sound(plan)
     c, functions = f"c/{plan.drive.name}", [f for f in guards.functions(plan) if f.key in lanes.KERNELS]
     kernels = arrange(plan, functions, often=lanes.KERNELS)
     ended = replace(plan, systems=tuple(map(at_end, plan.systems)))

@@ -1,8 +1,8 @@
 """What the sample design of a description must be, and what holds of a contact of it.
 
-:func:`validate_sample` looks at the design itself, :func:`validate_place`, :func:`validate_normals` and
-:func:`validate_ratio` at a solved contact of it, :func:`validate_limits` around that, :func:`validate_regions` at the
-places where fillets and flanks of that design join.
+:func:`validate_sample` looks at the design itself, :func:`validate_place`, :func:`validate_normals`,
+:func:`validate_ratio` and :func:`validate_play` at a solved contact of it, :func:`validate_limits` around that,
+:func:`validate_regions` at the places where fillets and flanks of that design join.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -132,12 +132,30 @@ def validate_limits(drive: Drive, observed: Observed, values: Numbers) -> None:
                 continue
             moved = [q for q in own if q in needed]
             places = _around(at, moved, reach)
-            if all(mpmath.isnan(_value_at(m.positive, there, drive.definitions)) for there in places):
-                where = place.name if isinstance(place, Body) else f"{place.member}'s {place.name}"
+            real, beyond = _reached(m.positive, places, drive.definitions)
+            where = place.name if isinstance(place, Body) else f"{place.member}'s {place.name}"
+            where = f"{drive.name}: the limit {m.event!r} of the {where} is"
+            if not real:
                 raise DescriptionError(
-                    f"{drive.name}: the limit {m.event!r} of the {where} is no real number, neither at the sample's "
-                    "contact nor anywhere around: it would never be applied; correct it or leave it out"
+                    f"{where} no real number, neither at the sample's contact nor anywhere around: it would never be "
+                    "applied; correct it or leave it out"
                 )
+            if m.along is None and not beyond:
+                raise DescriptionError(
+                    f"{where} below 0 neither at the sample's contact nor anywhere around: no point would ever lie "
+                    "beyond it; correct it or leave it out"
+                )
+
+
+def _reached(limit: Number, places: Iterable[Numbers], definitions: Definitions) -> tuple[bool, bool]:
+    """Whether a limit has a value at some of these places, and whether one of them is beyond it."""
+    real = False
+    for there in places:
+        value = _value_at(limit, there, definitions)
+        if value < 0:
+            return True, True
+        real = real or not mpmath.isnan(value)
+    return real, False
 
 
 def _around(at: Numbers, moved: Sequence[Quantity], reach: mpmath.mpf) -> Iterator[Numbers]:
@@ -202,10 +220,10 @@ def validate_ratio(drive: Drive, observed: Observed, values: Numbers) -> None:
     key = next(p for p in drive.parameters if drive.pinion_teeth in (p.key, p.place))
     ratio, found = float(value_of(drive.law, values, drive.definitions)), float(pinion / wheel)
     teeth = float(values[key.symbol])
-    off = abs(found / ratio - 1.0) * max(teeth, teeth / ratio)
+    off = abs(found / ratio - 1.0) * max(teeth, teeth / abs(ratio))
     if off <= OFF_TEETH:
         return
-    if found < 0.0:
+    if found * ratio < 0.0:
         remedy = f"turn the sense of the wheel's motion, or that of {drive.instant} in one of the motions"
     else:
         remedy = (
@@ -217,6 +235,34 @@ def validate_ratio(drive: Drive, observed: Observed, values: Numbers) -> None:
         f"transmit {found:.7g} at the sample's contact, {teeth:.6g} teeth of the pinion to {abs(teeth / found):.6g} "
         f"of the wheel; {remedy}"
     )
+
+
+#: Shares of a pitch: by how much the teeth of a sample may be thicker than the spaces, and how much play they may have.
+THICKER, PLAY = 0.05, 0.25
+
+
+def validate_play(drive: Drive, contacts: Sequence[tuple[Observed, Numbers]]) -> None:
+    """Raise :class:`DescriptionError` where the teeth of the sample jam, or turn idle through a good part of a pitch:
+    its two flanks then are not those of one tooth.
+
+    ``contacts`` are those of both flanks, each with its inputs as of :func:`validate_normals`.
+    """
+    turns: list[float] = []
+    for observed, values in contacts:
+        # a pinion's normal that has the wheel's lever ahead keeps it from turning back, another from turning on
+        ahead = float(observed[f"lever_arm_{drive.wheel.name}"][0]) > 0.0
+        turns.append(float(values[drive.error]) * (-1.0 if ahead else 1.0))
+    key = next(p for p in drive.parameters if drive.pinion_teeth in (p.key, p.place))
+    _, values = contacts[0]
+    pitch = 2.0 * float(mpmath.pi) * abs(float(value_of(drive.law, values, drive.definitions) / values[key.symbol]))
+    play = sum(turns) / pitch
+    play -= round(play)
+    if not -THICKER <= play <= PLAY:
+        said = f"jam by {-play:.3g}" if play < 0.0 else f"turn idle through {play:.3g}"
+        raise DescriptionError(
+            f"{drive.name}: between both flanks of the sample the teeth {said} of a pitch at the wheel: correct their "
+            "thickness, where that is needed with the sign of the flank, or the places of the wheel and of its tool"
+        )
 
 
 def validate_regions(drive: Drive, joints: Iterable[Joint]) -> None:

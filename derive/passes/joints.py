@@ -80,14 +80,25 @@ class _Surface:
 
 
 def joints(plan: Schedule) -> list[Joint]:
-    """The joints of all regions, for each flank with which the sample design has a place to start from."""
+    """The joints of all regions, for each flank with which the sample design has a place to start from. An error where
+    a region meets on neither flank the one that it says it joins, and both are of one design.
+    """
     pairs = [*_pairs(plan)]
-    return [
-        found
+    found = [
+        (of, _joint(of, region, flank, inputs, word))
         for word, inputs in (_samples(plan) if pairs else ())
         for of, region, flank in pairs
-        if (found := _joint(of, region, flank, inputs, word)) is not None
     ]
+    for of, *_ in () if plan.drive.flanks_apart else pairs:
+        if not any(isinstance(joint, Joint) for region, joint in found if region is of):
+            apart = [distance for region, distance in found if region is of and isinstance(distance, float)]
+            if apart:
+                raise DescriptionError(
+                    f"{plan.drive.name}: the {of.region} of the {of.body} does not meet the flank that it joins: where "
+                    f"both end they are {min(apart):.3g} mm apart, or turned against each other; let it begin where "
+                    "the flank ends"
+                )
+    return [joint for _, joint in found if isinstance(joint, Joint)]
 
 
 def _pairs(plan: Schedule) -> Iterator[tuple[Flank, _Surface, _Surface]]:
@@ -143,8 +154,8 @@ def _filled(drive: Drive, design: Values) -> Values:
 
 def _joint(
     of: Flank, region: _Surface, flank: _Surface, inputs: Mapping[sp.Symbol, float], word: str
-) -> Joint | None:
-    """The joint of a region and a flank; None where the sample has none."""
+) -> Joint | float | None:
+    """The joint of a region and a flank; where they have none how far they are apart, None where one is not there."""
     n = len(region.parameters)
     start = [float(inputs.get(q, 0.0)) for q in (*region.parameters, *flank.parameters)]
 
@@ -161,11 +172,9 @@ def _joint(
         one, other = region.at(inputs, q[:n]), flank.at(inputs, q[n:])
     except (ArithmeticError, ValueError):
         return None
-    if not math.dist(one.point, other.point) < APART:
-        return None
-    normals = _dot(one.normal, other.normal)
-    if not abs(normals) > TANGENT:
-        return None
+    distance, normals = math.dist(one.point, other.point), _dot(one.normal, other.normal)
+    if not (distance < APART and abs(normals) > TANGENT):
+        return distance
     try:
         ways = -_dot(one.way(), other.way())
     except ArithmeticError as error:

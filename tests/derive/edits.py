@@ -80,12 +80,12 @@ def _of(page):
     for node in ast.walk(ast.parse(source)):
         if getattr(node, "lineno", 0) != getattr(node, "end_lineno", -1):
             continue
-        for first, last, new in _changes(node, lines[node.lineno - 1]):
+        for first, last, new in changes(node, lines[node.lineno - 1]):
             found.setdefault(type(node).__name__, []).append(Edit(page, node.lineno, first, last, new))
     return found
 
 
-def _changes(node, line):
+def changes(node, line):
     begin, end = node.col_offset, node.end_col_offset
     raw = line.encode()
     match node:

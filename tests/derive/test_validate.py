@@ -9,7 +9,7 @@ import sympy as sp
 
 from derive import drives
 from derive.language import vectors as v
-from derive.language.chain import Motion, translation
+from derive.language.chain import Motion, Rz, translation
 from derive.language.contact import contact
 from derive.language.drive import DesignSystem, Loading, Margin, Role
 from derive.language.functions import Function, Result, solid
@@ -22,13 +22,16 @@ from derive.language.validate_sample import (
     validate_limits,
     validate_normals,
     validate_place,
+    validate_play,
     validate_ratio,
     validate_regions,
 )
 from derive.passes.equations import derive
 from derive.passes.joints import joints
+from derive.passes.other_flank import on_other_flank
 from derive.passes.sample import observation, sample_contact
 from derive.passes.schedule import schedule
+from derive.passes.similar import similar
 from tests.quick import quick
 
 POINT, SMALL = "spherical_convex_concave", "spherical_convex_spur"
@@ -486,7 +489,7 @@ def test_a_limit_without_a_value_anywhere_is_refused(drive, limit):
 
 
 def test_a_limit_that_has_a_value_elsewhere_or_none_for_an_open_key_is_not_refused(drive):
-    _limited(_with_margin(drive, Margin("off_tip", "tip", sp.sqrt(1 - X**2))))
+    _limited(_with_margin(drive, Margin("off_tip", "tip", sp.sqrt(1 - X**2) - sp.Rational(1, 2))))
     reach = parameter("reach_mm", "reach", "where it ends")
     _limited(_with_margin(_with_key(drive, reach), Margin("off_tip", "tip", sp.sqrt(-1 - X**2) + reach.symbol)))
 
@@ -505,6 +508,67 @@ def test_a_sample_whose_contact_is_off_its_teeth_is_refused(drive, change, messa
     plan = schedule(change(drive))
     with mpmath.workdps(30), pytest.raises(DescriptionError, match=message) if message else nullcontext():
         validate_place(plan.drive, observation(plan))
+
+
+def test_a_limit_beyond_which_nothing_lies_is_refused(drive):
+    for limit in (1 + X**2, sp.Abs(X) + MODULE, sp.sqrt(1 - X**2)):
+        with pytest.raises(DescriptionError, match="'tip' of the pinion is below 0 neither .* would ever lie"):
+            _limited(_with_margin(drive, Margin("off_tip", "tip", limit)))
+
+
+def test_a_fillet_that_does_not_meet_its_flank_is_refused():
+    away = _with_fillet(_drive(SMALL), surface=lambda r: r.surface.placed(translation(x=MODULE)))
+    with pytest.raises(DescriptionError, match="fillet of the pinion does not meet the flank that it joins"):
+        _joined(away)
+
+
+@pytest.mark.parametrize(
+    ("share", "said"), [(0.1, {"jam by 0.1", ""}), (0.4, {"jam by 0.4", "turn idle through 0.4"})]
+)
+def test_both_flanks_of_a_sample_are_those_of_one_tooth(drive, share, said):
+    """A wheel that each flank turns by half this share of a pitch, towards the other one or away from it."""
+    (which,) = (p.symbol for p in drive.parameters if p.table is Table.FLANK)
+    (teeth,) = (p.symbol for p in drive.parameters if p.key == drive.pinion_teeth)
+    turn = sp.Rational(share).limit_denominator(10) * which * sp.pi / teeth * drive.law
+
+    def answer(turn):
+        wheel = replace(drive.wheel, motion=drive.wheel.motion @ Rz(turn))
+        plan = schedule(_meshing(drive, wheel=wheel))
+        try:
+            validate_play(plan.drive, [(observation(q), q.sample) for q in (plan, on_other_flank(plan))])
+        except DescriptionError as error:
+            return str(error).partition("the teeth ")[2].partition(" of a pitch")[0]
+        return ""
+
+    assert answer(sp.S.Zero) == ""
+    assert {answer(turn), answer(-turn)} == said
+
+
+UNLIKE = {
+    "limit": (
+        lambda d: _with_margin(d, Margin("off_tip", "tip", MODULE + 5 - X / 9)), "margin_pinion_tip of the contact"
+    ),
+    "guard": (lambda d: replace(d, guards=(Guard(MODULE - 1, "small", ("module_mm",)),)), "guard 'small'"),
+    "rule": (
+        lambda d: _with_key(
+            d, parameter("crown_mm", "c", "crown"), rules=(*d.rules, Rule(Quantity("c", "mm"), MODULE**2))
+        ),
+        "key 'crown_mm' follows as 64, not 32 mm",
+    ),
+    "function": (lambda d: _with_function(d, "extra", MODULE + 1), "one of the function extra"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", UNLIKE)
+def test_a_drive_that_is_another_one_in_another_size_is_refused(drive, case):
+    change, message = UNLIKE[case]
+    with pytest.raises(DescriptionError, match=f"{message}.* where all lengths are doubled"):
+        similar(schedule(change(drive)))
+
+
+@pytest.mark.parametrize("name", [POINT, "cylindrical_worm_zk_zn", "bevel_face_hobbed", "face_worm"])
+def test_a_drive_is_the_same_in_every_size(name):
+    similar(schedule(_drive(name)))
 
 
 def _limited(drive):

@@ -13,7 +13,7 @@ import numpy as np
 
 from meshwright.base.errors import UsageError
 from meshwright.contact.functions import has, offered
-from meshwright.flank.region import region
+from meshwright.flank.region import CELLS, region
 from meshwright.limits.rack import generation_range
 from meshwright.limits.results import SurfaceLimit
 from meshwright.limits.singular_lines import begun, edges
@@ -69,26 +69,29 @@ def _between_limits(drive, name, request):
     bounded = region(drive, name, "flank", drive.uses)
     if bounded.empty:
         raise UsageError(bounded.why_empty)
-    surface, (across, along) = bounded.flank, bounded.chart.free
-    (first, begin), (last, end) = bounded.box
-    if across != bounded.profile:
-        (across, first, last), (begin, end) = (along, begin, end), (first, last)
-    ends = {"first": first, "last": last, "middle": float(bounded.seed[across])}
-    if has(drive, f"undercut_range_{name}"):
-        ends |= search_range(drive, name)
-    if len(surface.parameters) == 3:
-        near = bounded.seed[1:]
-        begins = [p for p in _places(ends, request) if across == 0 and begun(surface, p, near) is not None]
-        if not begins:
+    surface, told = bounded.flank, has(drive, f"undercut_range_{name}")
+    if len(surface.parameters) == 2:
+        low, high = 2.0 * bounded.box[0] - bounded.box[1], 2.0 * bounded.box[1] - bounded.box[0]
+        ends = {"first": low[0], "last": high[0], "along_first": low[1], "along_last": high[1]}
+        ends["middle"] = bounded.seed[0]
+        ends |= search_range(drive, name) if told else {}
+        found = _singular(surface, ends, replace(request, axial=()))
+        places = [q for q in found if _is_of_tooth(surface, q, AT_LIMIT)]
+        if told:
+            places += [q for q in _at_ends(surface, ends) if _is_of_tooth(surface, q, -AT_LIMIT)]
+    elif len(surface.parameters) == 3:
+        lattice = bounded.lattice((CELLS, CELLS))
+        nodes = lattice.q[lattice.inside]
+        ends = {"first": nodes[:, 0].min(), "last": nodes[:, 0].max(), "middle": bounded.seed[0]}
+        ends |= search_range(drive, name) if told else {}
+        near = {p: nodes[np.argmin(np.abs(nodes[:, 0] - p)), 1:] for p in _places(ends, request)}
+        if all(begun(surface, p, there) is None for p, there in near.items()):
             raise UsageError("no place of its profile is regular where its singular lines could be followed from")
-        places = [q for profile in begins for q in edges(surface, profile, near)]
-    elif len(surface.parameters) > 3:
-        raise UsageError("its flank has more than one equation beside it")
+        followed = [q for p, there in near.items() for q in edges(surface, p, there)]
+        places = [q for q in followed if _is_of_tooth(surface, q, -AT_LIMIT)]
     else:
-        ends |= {"along_first": 2.0 * begin - end, "along_last": 2.0 * end - begin}
-        places = [*_singular(surface, ends, replace(request, axial=())), *_at_ends(surface, ends)]
-    limits = (_limit(drive, name, surface, q, ends["middle"]) for q in places)
-    return [limit for limit, q in zip(limits, places, strict=True) if _is_of_tooth(surface, q)]
+        raise UsageError("its flank has more than one equation beside it")
+    return [_limit(drive, name, surface, q, ends["middle"]) for q in places]
 
 
 def _at_ends(surface, ends):
@@ -99,10 +102,12 @@ def _at_ends(surface, ends):
             yield np.array([profile, along])
 
 
-def _is_of_tooth(surface, q):
-    """Whether a place is within the limits of a flank across the tooth: beyond its tip nothing is cut."""
+def _is_of_tooth(surface, q, least):
+    """Whether a place is within the limits of a flank across the tooth, by this share of their size: beyond its tip
+    nothing is cut, and a singular line along which one of them runs, as of an involute at its base, ends the flank.
+    """
     margins = surface([q]).margins.items()
-    return all(not values[0] < -AT_LIMIT * max(1.0, abs(values[0])) for event, values in margins if event != "face")
+    return all(not values[0] < least * max(1.0, abs(values[0])) for event, values in margins if event != "face")
 
 
 def search_range(drive, name):
