@@ -269,13 +269,12 @@ def _guards():
               "teeth and profile shifts of ring gear and cutter: leave it out", (shaping_distance.key, z_0, z_2)),
         Guard(r_a.symbol - RING.base_radius, "the tip of the ring gear lies inside its base circle", ring),
         Guard(RING.pointed, "the teeth of the ring gear end in a point before the tip", ring),
-        Guard(RING.root_radius - r_a.symbol, "the tip of the ring gear lies beyond its root", (*ring, r_a0.key)),
         Guard(r_a0.symbol - CUTTER.rounding.symbol - CUTTER.base_radius,
               "the tip of the cutter lies inside its base circle", cutter),
         Guard(CUTTER.pointed, "the teeth of the cutter end in a point below the tip", cutter),
         Guard(CUTTER.centre_angle, "the tip of the cutter is not wide enough for its rounding",
               (CUTTER.rounding.key, *cutter)),
-        Guard(RING.root_rolling - RING.tip_rolling, "the fillet of the ring gear reaches its tip",
+        Guard(RING.root_rolling - RING.tip_rolling, "the ring gear has no involute between its tip and its fillet",
               (*ring, CUTTER.rounding.key, r_a0.key)),
     )  # fmt: skip
 

@@ -152,9 +152,9 @@ class Drive:
     @cached_property
     def searched_flank(self):
         """The wheel's flank about the contacts in the middle, None if there is none within its limits:
-        :class:`~meshwright.cycle.first_contact.SearchedFlank`.
+        :class:`~meshwright.cycle.searched_flank.SearchedFlank`.
         """
-        from meshwright.cycle.first_contact import SearchedFlank
+        from meshwright.cycle.searched_flank import SearchedFlank
 
         return SearchedFlank.of(self)
 
@@ -282,7 +282,7 @@ class Drive:
 
     def first_contact(self, angles, result=None):
         """Where the bounded flanks of a pair touch first at pinion angles (rad), tangency, edge or corner:
-        :class:`~meshwright.cycle.first_contact.FirstContacts`. ``result``: a TCA of these angles, if there is one.
+        :class:`~meshwright.cycle.first_results.FirstContacts`. ``result``: a TCA of these angles, if there is one.
         """
         from meshwright.cycle.first_contact import first_contacts
 

@@ -309,7 +309,7 @@ REFUSED = {
     "new bevel --m 2 --z 20:-60": "20:-60: no wheel of the family bevel; use `meshwright new internal-gears`",
     "new spherical --m 2 --z 20:internal": "20:internal: no wheel.*use `meshwright new internal-gears`",
     "new cylindrical-gears --m 2 --z 20:internal": "design.wheel_teeth: the key is missing",
-    "new cylindrical-gears --m 2 --z 20:-60 --wheel-kind external": "wheel_teeth = -60: contradicts.*kind = external",
+    "new cylindrical-gears --m 2 --z 20:-60 --wheel-kind external": "kind = 'external': contradicts.*wheel_teeth = -60",
     "new cylindrical-gears --m 2 --z 20:rack": "wheel_kind = 'rack': no family has a rack",
     "new cylindrical-gears --m 2 --z 20:moon": "moon: no wheel of the family cylindrical-gears; give its number",
     "new internal-gears --m 2 --z 20:-24": "tips meet outside the path of contact.*margin in rad of the ring gear -0.0",

@@ -12,7 +12,7 @@ from meshwright.base.errors import DesignError
 from meshwright.contact import analysis
 from meshwright.contact.flags import not_first, on_flanks
 from meshwright.contact.results import ARCSEC, TOUCHING
-from meshwright.cycle.first_contact import STATUSES
+from meshwright.cycle.first_results import STATUSES
 from meshwright.sweep import samples
 from tests.cycle.test_plain_pairs import random_pair
 

@@ -9,7 +9,7 @@ from meshwright import Drive
 from meshwright.cli import main
 from meshwright.commands import loading
 from meshwright.contact.results import ARCSEC, impossible
-from meshwright.cycle import first_contact
+from meshwright.cycle import search
 from meshwright.cycle.edge_contact import edge_paths
 from meshwright.cycle.first_contact import pair_errors
 from meshwright.cycle.pairs import Mesh
@@ -339,8 +339,8 @@ def test_first_contacts_followed_between_angles_are_those_searched_for(name, beg
 
 def test_many_angles_are_searched_for_at_few_of_them(monkeypatch):
     searches = []
-    one = first_contact.Search._one
-    monkeypatch.setattr(first_contact.Search, "_one", lambda self, *at: searches.append(at) or one(self, *at))
+    one = search.Search._one
+    monkeypatch.setattr(search.Search, "_one", lambda self, *at: searches.append(at) or one(self, *at))
     drive = Drive.load("helical-crowned")
     drive.first_contact(np.linspace(-0.5, 0.5, 20_000) * drive.pitch())
     assert len(searches) < 400

@@ -7,7 +7,7 @@ from meshwright import Drive
 from meshwright.base.errors import DesignError
 from meshwright.contact import analysis
 from meshwright.contact.results import ARCSEC, TOUCHING
-from meshwright.cycle.first_contact import STATUSES
+from meshwright.cycle.first_results import STATUSES
 from meshwright.cycle.pairs import Mesh
 from meshwright.sweep import samples
 from tests.cycle.test_plain_pairs import random_pair

@@ -1,6 +1,7 @@
 """Edges under load: gears so far out of line that the ends of their faces touch before any tangency."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -246,3 +247,29 @@ def test_finite_elements_about_tangencies_refuse_an_edge_that_is_first(capsys, t
     words = ["--torque-nm", "60", "--phi-deg=2.6", "--set", "misalignment.horizontal_deg=0.08"]
     assert main(["fe", "helical-crowned", *words, "--folder", str(tmp_path / "fe")]) == 2
     assert "edge of the wheel (left face)" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("bend", [0.0, 0.02, 0.1])
+def test_images_beside_a_bent_edge_are_those_beside_a_straight_one(bend):
+    """Slender cells along an edge that cuts a contact off, bent as a worm's tip is: what matters is how far away it is.
+
+    Cells lie along the parabola of the edge, which is 8 mm long and up to 1.6 mm from a straight one.
+    """
+    along, away = np.meshgrid(np.linspace(-4.0, 4.0, 41), np.linspace(0.01, 0.39, 20), indexing="ij")
+    slope = 2.0 * bend * along.ravel()
+    length = np.hypot(1.0, slope)
+    centres = np.stack([along.ravel(), bend * along.ravel() ** 2 - away.ravel()], axis=1)
+    place = np.stack([1.0 - 0.1 * away.ravel(), np.full(along.size, 0.5)], axis=1)
+    ways = np.stack([[np.ones_like(slope), slope], [-slope, np.ones_like(slope)]]).transpose(2, 0, 1)
+    grid = replace(
+        flat_grid(centres, (0.1, 0.01), place, ((0, 1.0),)),
+        rectangle=np.stack([0.1 * length, 0.01 / length], axis=1),
+        ways=ways / length[:, None, None],
+    )
+    added, _ = free_edge_displacements(grid, "wheel", Material(2.06e5, 0.3), None)
+    straight = replace(
+        flat_grid(np.stack([along.ravel(), -away.ravel()], axis=1), (0.1, 0.01), place, ((0, 1.0),)),
+    )
+    wanted, _ = free_edge_displacements(straight, "wheel", Material(2.06e5, 0.3), None)
+    middle = np.abs(along.ravel()) < 1.0
+    assert np.diag(added)[middle] == pytest.approx(np.diag(wanted)[middle], rel=0.05)

@@ -19,7 +19,8 @@ import numpy as np
 from meshwright import Drive
 from meshwright.base.compile import DRIVE, IN_LANES, PARTS, PROOFS
 from meshwright.base.library import ffi, library, pointer
-from meshwright.cycle import certified_first, first_contact
+from meshwright.cycle import certified_first, searched_flank
+from meshwright.cycle.search import Search, _matrices
 from meshwright.design import design
 
 HERE = Path(__file__).resolve().parent
@@ -162,20 +163,20 @@ def _proofs(drive, most=4):
 
 def _search(drive):
     """The arguments of a search for first contact over a coarse mesh; None where there is none."""
-    cells, first_contact.CELLS = first_contact.CELLS, (3, 4)
+    cells, searched_flank.CELLS = searched_flank.CELLS, (3, 4)
     caught = []
     try:
         angles = np.array([0.05])
         solved = drive.tca(angles)
-        search = first_contact.Search.of(drive, angles, solved.solutions)[0]
+        search = Search.of(drive, angles, solved.solutions)[0]
         if search is None:
             return None
         table, start = search.flank.table, solved.solutions[0]
-        pinion, wheel = first_contact._matrices(drive, np.linspace(0.0, 0.05, 2))
+        pinion, wheel = _matrices(drive, np.linspace(0.0, 0.05, 2))
         begin = np.concatenate([start[b["unknowns"]] for b in drive.design.description["bodies"][::-1]])
         caught = [search, table, pinion, wheel, np.append(begin, start[drive.design.description["error"]])]
     finally:
-        first_contact.CELLS = cells
+        searched_flank.CELLS = cells
     return caught if np.isfinite(caught[4]).all() else None
 
 

@@ -25,7 +25,7 @@ def first(tmp_path, monkeypatch, capsys):
 @pytest.mark.parametrize("words", [
     "cylindrical-gears --m 2 --z 20:-60", "internal-gears --m 2 --z 20:-60 --a 39.5",
     "cylindrical-gears --m 2 --z 45:-60 --helix-angle 20 --pinion-hand left",
-    "cylindrical-gears --m 2 --z 20:-60 --normal-backlash 0.1 --wheel-tip-diameter 117.4",
+    "cylindrical-gears --m 2 --z 20:-60 --normal-backlash 0.1 --wheel-tip-diameter 117.4 --shaper-teeth 18",
 ])  # fmt: skip
 def test_a_negative_number_of_teeth_gives_a_pair_that_meshes(first, capsys, words):
     status, said, path = first(words)

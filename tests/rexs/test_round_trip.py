@@ -31,6 +31,18 @@ def test_mapped_keys_come_back(tables):
         assert after[symbol] == pytest.approx(number, rel=1e-12, abs=1e-15, nan_ok=True), symbol
 
 
+def test_a_design_from_a_drawing_is_written_with_the_keys_that_follow():
+    """The tip by its diameter, the helix angle without a sign and the hand: the same file as by the keys."""
+    design = {k: v for k, v in HELICAL["design"].items() if "helix_angle" not in k}
+    angle = HELICAL["design"]["pinion_helix_angle_deg"]
+    by_keys = HELICAL | {"design": design | {"pinion_helix_angle_deg": angle, "wheel_helix_angle_deg": -angle},
+                         "blank": {"pinion_tip_radius_mm": 34.1}}  # fmt: skip
+    drawn = {"helix_angle_deg": abs(angle), "pinion_hand": "right" if angle > 0 else "left"}
+    by_drawing = HELICAL | {"design": design | drawn, "blank": {"pinion_tip_diameter_mm": 68.2}}
+    one, other = (read_text(file_of(tables, "0").content.decode()).tables for tables in (by_keys, by_drawing))
+    assert other == one
+
+
 @pytest.mark.parametrize("tables", PAIRS, ids=named)
 def test_a_key_has_another_name_at_most_in_an_exclusive_group(tables):
     """What is mapped and is not written back under its name determines, and is determined by, what is."""

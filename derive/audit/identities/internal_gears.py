@@ -13,14 +13,14 @@ DOCUMENT = Document(
     about="A pinion cutter and a ring gear turn in one direction about parallel axes. Index 0 is the cutter, 2 the "
     "ring gear, whose space is that of the drive's description.",
     symbols={
-        "rho0": ("ϱ0", "mm", "rolling length of the cutter's involute"),
+        "rho0": ("ρ0", "mm", "rolling length of the cutter's involute"),
         "rb0": ("r_b0", "mm", "base radius of the cutter"),
         "psi0": ("ψ0", "rad", "half angle of the cutter's tooth on its base circle"),
         "a": ("a", "mm", "distance of the axes"),
         "w": ("α_w", "rad", "transverse working pressure angle of generation"),
         "t": ("θ", "rad", "turn of the tangent to the base circle"),
         "rb2": ("r_b2", "mm", "base radius of the ring gear"),
-        "rho2": ("ϱ2", "mm", "rolling length of the ring gear's involute"),
+        "rho2": ("ρ2", "mm", "rolling length of the ring gear's involute"),
         "s": ("s", "-", "flank sign"),
     },
 )

@@ -24,7 +24,7 @@ from meshwright.base.files import write_text
 from meshwright.commands import options as common
 from meshwright.contact.flags import not_first
 from meshwright.contact.results import ON_EDGES, ON_FLANKS, impossible
-from meshwright.cycle.first_contact import Search
+from meshwright.cycle.search import Search
 from meshwright.design import description, schema
 from meshwright.design import design as designs
 from meshwright.design.outline import first_design
@@ -132,10 +132,9 @@ def _teeth(text):
 
 def run(options):
     asked = {"m": options.m or math.nan, "z_1": options.z[0], "z_2": options.z[1], "a": options.a}
-    named = _family(options.family)
-    own = _sizes(named, options)
-    family = _belongs(named, asked, own)
+    family = _belongs(_family(options.family), asked)
     words = _words(family, options.profile)
+    own = _sizes(family, options)
     given, determined, sizes = _determined(family, asked, own)
     if math.isfinite(options.a) and "a" not in family.outline["options"]:
         raise UsageError(f"--a {options.a:g}: the centre distance of this family follows from its teeth; leave it out")
@@ -184,12 +183,12 @@ def _asked(family, asked):
     return places, sizes
 
 
-def _belongs(family, asked, own):
-    """The family itself, or that of which its drawing says that a drive with these options and ``own`` sizes is.
+def _belongs(family, asked):
+    """The family itself, or that of which its drawing says that a drive with these options is.
 
     Raises :class:`UsageError` where the family has no such wheel, :class:`DesignError` where no family has.
     """
-    tables = designs.changed({"drive": family.name}, _asked(family, asked)[1] | own)
+    tables = designs.changed({"drive": family.name}, _asked(family, asked)[1])
     if other := family.drawing.other_family(tables):
         return _family(other)
     if error := family.drawing.refused(tables):

@@ -21,7 +21,7 @@ from meshwright.contact.flags import not_first
 from meshwright.contact.friction import efficiency
 from meshwright.contact.results import ON_EDGES
 from meshwright.contact.velocities import velocities
-from meshwright.cycle.first_contact import Search
+from meshwright.cycle.search import Search
 
 #: Angles that are analysed, and written, at once.
 AT_ONCE = 4096

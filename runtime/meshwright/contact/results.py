@@ -44,7 +44,7 @@ class TCA:
     the right-hand model in its own order, NaN where there is no solution. ``outside_the_tips`` says which points have
     no contact within the tips of both members: (N,) of bool. On an edge and at a corner ``points``, ``normals``,
     ``body_points`` and the wheel's lever are those there, and what belongs to a tangency is NaN. ``lines``: the
-    :class:`~meshwright.cycle.first_contact.TouchingLine` along which the flanks, or an edge and a flank, touch, else
+    :class:`~meshwright.cycle.touching_line.TouchingLine` along which the flanks, or an edge and a flank, touch, else
     None.
     """
 

@@ -10,7 +10,8 @@ import numpy as np
 
 from meshwright.contact.analysis import analyse, at_solutions, status_text
 from meshwright.contact.placement import inverse, placed
-from meshwright.cycle.first_contact import FLAT, OVERLAP, STATUSES, Search
+from meshwright.cycle.first_results import STATUSES
+from meshwright.cycle.search import FLAT, OVERLAP, Search
 
 #: A smaller principal curvature of the gap below this share of the larger one may be that of a line.
 NEARLY_FLAT = 1e-6

@@ -12,7 +12,8 @@ import numpy as np
 from meshwright.contact.results import ARCSEC
 from meshwright.cycle.certified_first import EFFORT, REACH, ranges
 from meshwright.cycle.certified_line import CertifiedLine, Posed, certified_line
-from meshwright.cycle.first_contact import Search, start_values
+from meshwright.cycle.search import Search
+from meshwright.cycle.searched_flank import start_values
 
 #: Turned back by more than this, mm of arc at the place of contact, the flanks have no place in common; turned on by so
 #: much they have one: the first for which it is shown. The least is tried where so many parts may be looked at.
@@ -115,7 +116,7 @@ class _Extreme:
         self.posed, self.nearest = Posed(drive, self.angle, ends), np.inf
 
     def line(self, line):
-        """What is shown of a :class:`~meshwright.cycle.first_contact.TouchingLine`, right hand."""
+        """What is shown of a :class:`~meshwright.cycle.touching_line.TouchingLine`, right hand."""
         wheel = self.drive.design.description["bodies"][1]
         on_wheel = self.drive.flank(wheel["name"])(line.unknowns(self.drive)[:, wheel["unknowns"]]).points
         radius = float(np.hypot(on_wheel[:, 0], on_wheel[:, 1]).max()) * (1.0 + 1e-9)

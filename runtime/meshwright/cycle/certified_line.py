@@ -97,7 +97,7 @@ class Posed:
 
 def certified_line(posed, wheel_angle, x, lines, radius):
     """The :class:`CertifiedLine` with the wheel at an angle. ``lines``: one after the other, the same
-    :class:`~meshwright.cycle.first_contact.TouchingLine` by points ever closer; ``radius``: the largest distance of its
+    :class:`~meshwright.cycle.touching_line.TouchingLine` by points ever closer; ``radius``: the largest distance of its
     points from the wheel's axis, mm.
     """
     parts, reason = 0, ""

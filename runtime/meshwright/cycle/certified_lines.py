@@ -16,7 +16,7 @@ from meshwright.contact.results import ARCSEC
 from meshwright.cycle.certified_extreme import Extremes, enclosed_extremes
 from meshwright.cycle.certified_first import REACH, SLACK, ranges
 from meshwright.cycle.certified_line import TERMS
-from meshwright.cycle.first_contact import Search
+from meshwright.cycle.search import Search
 
 #: Longest range that is tried, and shortest, in pitches; what is kept from the ends of the window.
 LONGEST = 1 / 8

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshwright.cycle.first_contact import OPEN_ENDED, UNKNOWN, Search
+from meshwright.cycle.first_results import OPEN_ENDED, UNKNOWN
+from meshwright.cycle.search import Search
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ them, at an end of which they touch.
 import math
 
 from meshwright.base.roots import bracketed
-from meshwright.cycle.first_contact import Search
+from meshwright.cycle.search import Search
 
 #: Angles looked at per pitch.
 SAMPLES_PER_PITCH = 4

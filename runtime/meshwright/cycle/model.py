@@ -3,8 +3,8 @@
 from typing import Protocol
 
 from meshwright.contact.certificate import ProvedModel
-from meshwright.cycle.first_contact import SearchedFlank
 from meshwright.cycle.path import Path
+from meshwright.cycle.searched_flank import SearchedFlank
 from meshwright.cycle.windows import Window
 from meshwright.flank.model import DriveModel as FlankModel
 

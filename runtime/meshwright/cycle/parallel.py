@@ -7,7 +7,7 @@ import numpy as np
 from meshwright.base.library import pointer
 from meshwright.base.roots import bracketed
 from meshwright.contact.placement import placed
-from meshwright.cycle.first_contact import start_values
+from meshwright.cycle.searched_flank import start_values
 from meshwright.cycle.windows import limits_of
 
 #: Axes whose directions differ by less, rad, are parallel.

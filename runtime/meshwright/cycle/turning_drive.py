@@ -9,7 +9,7 @@ from meshwright.base.library import ffi, library, pointer, record
 from meshwright.contact.analysis import checked_angles, statuses
 from meshwright.contact.placement import placed
 from meshwright.cycle.backlash import offsets
-from meshwright.cycle.first_contact import STATUSES
+from meshwright.cycle.first_results import STATUSES
 from meshwright.cycle.pairs import Mesh
 from meshwright.cycle.rigid import RigidTeeth
 

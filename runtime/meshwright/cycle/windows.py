@@ -10,9 +10,10 @@ from meshwright.base.roots import bracketed
 from meshwright.contact.branch import fold_angle
 from meshwright.contact.results import TOUCHING
 from meshwright.cycle.bounded import rigid_contact
-from meshwright.cycle.first_contact import STATUSES, Search
+from meshwright.cycle.first_results import STATUSES
 from meshwright.cycle.line_windows import line_ends
 from meshwright.cycle.path import SHORT_OF_FOLD, Path
+from meshwright.cycle.search import Search
 
 #: Events are located to this angle, rad.
 ANGLE_TOLERANCE = 1e-10

@@ -35,6 +35,10 @@ from meshwright.fe.material import Material
 _NEAREST, _FEWEST_CELLS = 3, 3
 # Cells along either side of a patch that its mean takes.
 _PER_PATCH = 5
+# Of two slopes that cells tell as well, that of the straighter edge counts: by this much in the measure of bends.
+_BENT = 1e-3
+# A slope below this part of that beside the edge has no direction.
+_LEVEL = 1e-3
 # From so much of the flank away on an edge has no images.
 _WITHIN = 0.5
 
@@ -116,23 +120,31 @@ def _edges(grid: ContactGrid, name: str) -> Iterator[_Beside]:
         shares = np.abs(end - place[:, axis])
         if len(centres) < _FEWEST_CELLS or not shares.min() < _WITHIN:
             continue
-        slope = _slope(centres, place[:, axis], shares)
+        slope, slopes = _slopes(centres, place[:, axis], shares)
         steepness = float(np.hypot(*slope))
         if not steepness > 0.0:
             continue
         across = slope / steepness
-        size = np.hypot(across[0] * grid.half[:, 0], across[1] * grid.half[:, 1])
+        own = slopes / np.maximum(np.linalg.norm(slopes, axis=1), _LEVEL * steepness)[:, None]
+        size = np.linalg.norm(grid.rectangle * np.einsum("nij,nj->ni", grid.ways, own), axis=1)
         away = shares / steepness
         along = centres @ np.array([-across[1], across[0]])
         yield _Beside(axis, end, away, along, _weight(shares), np.stack([size, grid.half.prod(axis=1) / size]))
 
 
-def _slope(centres: Floats, share: Floats, away: Floats) -> Floats:
-    """Change (2,) per mm of a share of the flank along the axes of the contact plane, beside an edge."""
+def _slopes(centres: Floats, share: Floats, away: Floats) -> tuple[Floats, Floats]:
+    """Change per mm of a share of the flank along the axes of the contact plane, in the middle of cells beside an edge
+    (2,) and at each cell (N, 2). Along an edge that is not straight, a share of it is no linear function of places.
+    """
     nearest = np.argsort(away)[: max(_FEWEST_CELLS, len(away) // _NEAREST)]
-    linear = np.column_stack([np.ones(len(nearest)), centres[nearest]])
-    _, *slope = np.linalg.lstsq(linear, share[nearest], rcond=None)[0]
-    return np.array(slope)
+    middle = centres[nearest].mean(axis=0)
+    size = float(np.abs(centres[nearest] - middle).max())
+    x, y = (centres[nearest] - middle).T / size
+    terms = np.column_stack([x, y, np.ones(len(x)), _BENT * x * x, _BENT * x * y, _BENT * y * y])
+    first, second, _, *bent = np.linalg.lstsq(terms, share[nearest], rcond=None)[0]
+    own = _BENT * np.array([[2.0 * bent[0], bent[1]], [bent[1], 2.0 * bent[2]]])
+    slope = np.array([first, second])
+    return slope / size, (slope + (centres - middle) / size @ own) / size
 
 
 def _weight(shares: Floats) -> Floats:

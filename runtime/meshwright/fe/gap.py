@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from meshwright.fe.hexahedra import Floats
+from meshwright.fe.hexahedra import Floats, Ints
 from meshwright.fe.pair import GearPair, Member, PairTouch
 from meshwright.fe.profile import Rail, SectionCurves, Smooth
 from meshwright.fe.tooth import ToothForm
@@ -25,27 +25,33 @@ _OUTLINE = 9
 _BEYOND = 0.05
 # Differences of the gap about an edge are taken over this part of the extent of the flanks.
 _DIFFERENCE = 0.01
+# Places along either side of a square about it that tell how the gap bends.
+_ABOUT = 7
 
 
 @dataclass(frozen=True)
 class ContactGrid:
-    """Pressure cells of one pair, N = ``rows`` x ``columns`` rectangles that lie on both flanks, row by row.
+    """Pressure cells of one pair, N = ``rows`` x ``columns`` of them that lie on both flanks, row by row.
 
-    centres (N, 2) in mm along the axes of the contact plane from the contact point.  half (N, 2): half lengths of a
-    cell along a row's way and across it.  frame (N, 3, 3): unit directions along, across and normal, out of the
-    pinion; points (N, 3): on the pinion's flank, fixed frame.  gap (N,) in mm along the normal, positive apart.
-    row_gap (rows,): the smallest in each row; offset (N,): mm across from the place of that.  free (2, N): cells
-    at a border of the grid, along and across, where the flanks go on.  beyond (4, N): by the name of an edge, such as
-    "tip of the wheel", the cells that have it on their side at the begin or the end along, or on either side across;
-    sharp (4, N): 1 for those of them where the mate goes on, 0 where it does not, between where it ends soon.  place:
-    for each member the fractions (N, 2) of flank arc length and face width; free_edges: where it has free edges, 0 and
-    1 for arc length and width, and the fraction there.
+    centres (N, 2) in mm along the axes of the contact plane from the contact point. half (N, 2): half lengths of a
+    cell straight across its row and along that. Where edges are oblique to rows cells are sheared: rectangle (N, 2)
+    has the half sides of those of the same area and second moments, ways (N, 2, 2) their directions in the contact
+    plane, frame (N, 3, 3) those on the pinion's flank, and its normal out of the pinion; points (N, 3): on the
+    pinion's flank, fixed frame. gap (N,) in mm along the normal, positive apart. row_gap (rows,): the smallest in
+    each row; offset (N,): mm across from the place of that. free (2, N): cells at a border of the grid, along and
+    across, where the flanks go on. beyond (4, N): by the name of an edge, such as "tip of the wheel", the cells
+    that have it on their side at the begin or the end along, or on either side across; sharp (4, N): 1 for those of
+    them where the mate goes on, 0 where it does not, between where it ends soon. place: for each member the
+    fractions (N, 2) of flank arc length and face width; free_edges: where it has free edges, 0 and 1 for arc length
+    and width, and the fraction there.
     """
 
     rows: int
     columns: int
     centres: Floats
     half: Floats
+    rectangle: Floats
+    ways: Floats
     frame: Floats
     points: Floats
     gap: Floats
@@ -101,13 +107,15 @@ class ContactPlane:
         return cls(contact, axes, flanks)
 
     def _least_bent(self) -> Floats:
-        """Unit direction (3,) in the plane in which the gap of the surfaces bends least at the contact."""
+        """Unit direction (3,) in the plane in which the gap of the flanks bends least at the contact, by the places
+        about it that are on both: beside an undercut normals meet another sheet of the surface.
+        """
         step = _DIFFERENCE * float(np.min(np.diff(self.extents(), axis=0)))
-        x, y = np.meshgrid(*([-step, 0.0, step],) * 2, indexing="ij")
-        gap, _ = self.gaps(self.feet(np.stack([x, y], axis=-1).reshape(-1, 2)))
-        gap = gap.reshape(3, 3)
-        bent = np.diag([gap[0, 1] - 2.0 * gap[1, 1] + gap[2, 1], gap[1, 0] - 2.0 * gap[1, 1] + gap[1, 2]])
-        bent[[0, 1], [1, 0]] = 0.25 * (gap[2, 2] - gap[2, 0] - gap[0, 2] + gap[0, 0])
+        x, y = (at.ravel() for at in np.meshgrid(*(np.linspace(-1.0, 1.0, _ABOUT),) * 2, indexing="ij"))
+        gap, inside = self.gaps(self.feet(step * np.stack([x, y], axis=-1)))
+        terms = np.stack([0.5 * x * x, x * y, 0.5 * y * y, x, y, np.ones_like(x)], axis=1)
+        first, both, second, *_ = np.linalg.lstsq(terms[inside], gap[inside], rcond=None)[0]
+        bent = np.array([[first, both], [both, second]])
         _, axes = np.linalg.eigh(bent)
         return axes[:, 0] @ self.axes[:2]
 
@@ -158,6 +166,14 @@ class Footprint:
     def margin(self) -> Floats:
         """The least of the margins (N,), minus infinity where the normal meets no surface."""
         return np.where(self.pierced, np.min(list(self.margins.values()), axis=0), -np.inf)
+
+    def at(self, rows: Ints) -> Footprint:
+        """Those of some of the feet (M,)."""
+        margins = {name: margin[rows] for name, margin in self.margins.items()}
+        return Footprint(
+            self.points[rows], self.normals[rows], self.pierced[rows], margins, self.excess[rows],
+            self.fraction[rows], self.section[rows],
+        )  # fmt: skip
 
     @property
     def inside(self) -> Bools:

@@ -92,7 +92,7 @@ def between_cells(grid: ContactGrid, modulus: float) -> Floats:
         stretch = np.sqrt(1.0 + z**2 / np.where(flat > 0.0, flat, 1.0))
         return x * stretch, y * stretch
 
-    return far_or_near(apart, grid.half.T, modulus)
+    return far_or_near(apart, grid.rectangle.T, modulus)
 
 
 def symmetric(displacements: Floats, areas: Floats) -> Floats:

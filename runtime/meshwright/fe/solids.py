@@ -12,7 +12,8 @@ from meshwright.contact.contact_line import contact_line
 from meshwright.contact.flags import on_flanks
 from meshwright.contact.placement import about_z, placed
 from meshwright.contact.results import TCA
-from meshwright.cycle.first_contact import FirstContacts, first_contact_of
+from meshwright.cycle.first_contact import first_contact_of
+from meshwright.cycle.first_results import FirstContacts
 from meshwright.cycle.pairs import Mesh
 from meshwright.cycle.windows import Window
 from meshwright.drive import Drive

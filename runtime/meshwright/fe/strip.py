@@ -15,6 +15,7 @@ from functools import cached_property
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
+from scipy.spatial import KDTree
 
 from meshwright.fe.gap import Bools, ContactGrid, ContactPlane
 from meshwright.fe.hexahedra import Floats
@@ -283,7 +284,7 @@ class Strip:
         beyond = ends + _BEYOND * self.reach * np.array([-1.0, 1.0])
         stations, lengths = self._measured
         first, last = np.interp(ends, stations, lengths)
-        bounds = first + (last - first) * _shares(rows, *(self.margin(beyond, np.zeros(2)) < 0.0)[:, None])
+        bounds = first + (last - first) * _shares(rows, *(self.margin(beyond, np.zeros(2)) < 0.0))
         along, bounds = (np.interp(at, lengths, stations) for at in (0.5 * (bounds[1:] + bounds[:-1]), bounds))
         return self._without_crossing(window.width)._divided(along, bounds, window.width, columns)
 
@@ -330,16 +331,23 @@ class Strip:
         self, along: Floats, bounds: Floats, middle: Floats, sides: Floats, cut: Bools, columns: int
     ) -> ContactGrid:
         rows = len(along)
-        borders = sides[0][:, None] + (sides[1] - sides[0])[:, None] * _shares(columns, *cut[:, :, None])
+        share = _shares(columns, bool(cut[0].any()), bool(cut[1].any()))
+        borders = sides[0][:, None] + (sides[1] - sides[0])[:, None] * share
         size, offsets = np.diff(borders, axis=1), 0.5 * (borders[:, 1:] + borders[:, :-1])
         stations = np.broadcast_to(along[:, None], offsets.shape)
         centres = self.at(stations, offsets).reshape(-1, 2)
         feet = self.plane.feet(centres)
         of = self.plane.footprints(feet)
+        known = np.all([one.inside for one in of.values()], axis=0)
+        nearest = np.arange(len(feet))
+        if not known.all() and known.any():
+            # Beside an undercut a normal may meet another sheet of the surface: there the gap is that of the next cell.
+            nearest = np.flatnonzero(known)[KDTree(centres[known]).query(centres)[1]]
+            of = {name: one.at(nearest) for name, one in of.items()}
         gap, _ = self.plane.gap(of)
         # Straight above their feet, which are known better than where normals are met.
         up, met = self.plane.axes[2], of["pinion"].points
-        points = feet + ((met - feet) @ up)[:, None] * up
+        points = feet + ((met - feet[nearest]) @ up)[:, None] * up
         normals, upright = of["pinion"].normals, of["pinion"].normals @ up
         frame, longer = self._on_flank(np.repeat(along, columns), normals)
         # Rows across a bent curve are longer on its outside, as their centres are further apart there.
@@ -348,11 +356,17 @@ class Strip:
         turn = np.diff(self.way(bounds), axis=0).T
         length = np.maximum(straight - offsets * turn, _LEAST_LENGTH * straight)
         half = 0.5 * longer * np.stack([length.ravel(), size.ravel()], axis=1)
+        ways = np.repeat(self.directions(along), columns, axis=0)
+        next_row = np.asarray(np.gradient(centres.reshape(rows, columns, 2), axis=0)) if rows > 1 else ways[:, 0]
+        onward = np.einsum("ni,nji->nj", next_row.reshape(-1, 2), ways)
+        shear = np.where(onward[:, 0] > 0.0, onward[:, 1] / onward[:, 0], 0.0) * longer[:, 1] / longer[:, 0]
+        turned, rectangle = _rectangles(half, shear)
+        frame[:, :2], ways = turned @ frame[:, :2], turned @ ways
         free, beyond, sharp = self._bounds(along, bounds, offsets, sides, cut)
         middle_foot = feet.mean(axis=0)
         place = {name: flank.place(of[name], middle_foot) for name, flank in self.plane.flanks.items()}
         return ContactGrid(
-            rows, columns, centres, half, frame, points, gap * upright, self.least(along, middle),
+            rows, columns, centres, half, rectangle, ways, frame, points, gap * upright, self.least(along, middle),
             (offsets - middle[:, None]).ravel(), free.reshape(2, -1), beyond, sharp, place,
             {name: flank.free_edges for name, flank in self.plane.flanks.items()},
         )  # fmt: skip
@@ -391,21 +405,33 @@ class Strip:
         sharp[at] = np.clip(goes_on / _SHARP, 0.0, 1.0)
         for name, of in footprints.items():
             for edge, margin in of.margins.items():
-                bounds = np.zeros(sharp.shape, dtype=bool)
-                bounds[tuple(one[of.pierced & (margin < 0.0)] for one in at)] = True
-                if bounds.any():
-                    names[f"{edge} of the {name}"] = bounds
+                beside = of.pierced & (margin < 0.0)
+                bounded = np.zeros(sharp.shape, dtype=np.bool_)
+                bounded[at[0][beside], at[1][beside]] = True
+                if bounded.any():
+                    names[f"{edge} of the {name}"] = bounded
         return free, names, sharp
 
 
-def _shares(count: int, first: Bools, last: Bools) -> Floats:
-    """Shares (..., count + 1) of a length at the borders of its parts, the shorter the nearer to an edge, where there
-    is one (..., 1) at the first and the last.
+def _rectangles(half: Floats, shear: Floats) -> tuple[Floats, Floats]:
+    """Rectangles as large as cells of half sides (N, 2), with the same second moments, where rows lie off the next
+    ones by so much of their length, ``shear`` (N,): their directions (N, 2, 2) and half sides (N, 2).
+    """
+    (along, across), off = (half**2).T, shear
+    angle = 0.5 * np.arctan2(2.0 * along * off, along * (1.0 - off**2) - across)
+    longer = 0.5 * (along * (1.0 + off**2) + across + np.hypot(along * (1.0 - off**2) - across, 2.0 * along * off))
+    directions = np.stack([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]]).transpose(2, 0, 1)
+    return directions, np.sqrt(np.stack([longer, along * across / longer], axis=1))
+
+
+def _shares(count: int, first: bool, last: bool) -> Floats:
+    """Shares (count + 1,) of a length at the borders of its parts, the shorter the nearer to an edge, where there is
+    one at the first and the last.
     """
     share = np.linspace(0.0, 1.0, count + 1)
     one = _SHORTER * np.sin(np.pi * share) / np.pi
     both = 0.5 * _SHORTER * np.sin(2.0 * np.pi * share) / np.pi
-    return share - np.where(first & last, both, (first.astype(float) - last) * one)
+    return share - (both if first and last else (float(first) - float(last)) * one)
 
 
 def _last(holds: Callable[[Floats], Bools], inner: Floats, outer: Floats) -> Floats:

@@ -4,8 +4,8 @@ from functools import cache
 
 import numpy as np
 
-from meshwright.cycle.first_contact import start_values
 from meshwright.cycle.pairs import Mesh
+from meshwright.cycle.searched_flank import start_values
 from meshwright.flank.uses import Uses
 from meshwright.pattern.pattern import contours
 

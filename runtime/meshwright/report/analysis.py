@@ -16,7 +16,7 @@ from meshwright.contact.results import TCA, impossible
 from meshwright.contact.velocities import Velocities, velocities
 from meshwright.cycle.backlash import backlash
 from meshwright.cycle.edge_contact import edge_paths
-from meshwright.cycle.first_contact import FirstContacts
+from meshwright.cycle.first_results import FirstContacts
 from meshwright.cycle.pairs import Mesh
 from meshwright.cycle.transmission import (
     ROUND_OFF,

@@ -62,6 +62,7 @@ def file_of(tables, version, into=None, stage=None):
     ``version`` is that of this program. Raises :class:`~meshwright.base.errors.DesignError` for a design that is
     wrong, :class:`~meshwright.base.errors.UsageError` for a family that REXS does not have.
     """
+    tables = designs.from_drawing(tables)
     family_name, _ = designs.validated(tables)
     family = metadata.families()[family_name]
     if family.exchange is None:
