@@ -383,8 +383,8 @@ def _indexed(drive: Drive) -> Iterator[str]:
     """
     key = next(p for p in drive.parameters if drive.pinion_teeth in (p.key, p.place))
     count = sp.sympify(key.symbol / drive.definitions.resolve(drive.law))
-    numbers = [p.symbol for p in drive.parameters if p.integer or p.choices]
-    whole = {q: -1 if float(q.domain[1]) <= 0.0 else 1 for q in numbers}
+    counted = [p.symbol for p in drive.parameters if p.integer or p.choices]
+    whole = {q: -1 if float(q.domain[1]) <= 0.0 else 1 for q in counted}
     if drive.definitions.free(count) - {*whole}:
         return
     for k in range(1, COUNTED + 1):
