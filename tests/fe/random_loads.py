@@ -59,8 +59,8 @@ def random_load(seed: int) -> Outcome:
         if not first_touches(gear, angle, 3):
             return Outcome(case, "no pair touches")
         found = loaded_contact(gear, angle, 3, Load(torque, loaded), None)
-    except DesignError:
-        return Outcome(case, "no such design")
+    except DesignError as error:
+        return Outcome(case, f"refused: {error}")
     except ArithmeticError as error:
         return Outcome(case, f"diverged: {error}")
     if abs(found.rotation) > LARGEST_ROTATION:

@@ -41,8 +41,8 @@ def test_rows_lie_straight_across_a_curve_that_bends_little():
 
 def test_flanks_that_do_not_lie_over_one_another_are_told():
     touch = SimpleNamespace(edge="tip of the pinion on right face of the wheel")
-    plane = SimpleNamespace(
-        extents=lambda: np.array([[0.05, -14.7], [-1.07, 0.7]]), contact=SimpleNamespace(pairs_later=1, touch=touch)
-    )
+    extents = np.array([[0.05, -14.7], [-1.07, 0.7]])
+    pair = SimpleNamespace(pairs_later=1, touch=touch)
+    plane = SimpleNamespace(extents=lambda: extents, shared=False, contact=pair)
     with pytest.raises(ArithmeticError, match=r"pair \+1 do not lie over one another .* \(tip of the pinion on right"):
         Strip.of(plane)
