@@ -1,5 +1,7 @@
 """Rows of cells across strips whose curves bend as they like."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
@@ -35,3 +37,12 @@ def test_rows_lie_straight_across_a_curve_that_bends_little():
     strip = Strip(None, (0.0, LENGTH), 2.0, along, lambda x, n=0: 0.05 * (2.0 * x if n else x * x))
     stations = np.linspace(0.0, LENGTH, 50)
     assert strip._without_crossing(0.5).way(stations) == pytest.approx(strip.way(stations), abs=1e-4)
+
+
+def test_flanks_that_do_not_lie_over_one_another_are_told():
+    touch = SimpleNamespace(edge="tip of the pinion on right face of the wheel")
+    extents = np.array([[0.05, -14.7], [-1.07, 0.7]])
+    pair = SimpleNamespace(pairs_later=1, touch=touch)
+    plane = SimpleNamespace(extents=lambda: extents, shared=False, contact=pair)
+    with pytest.raises(ArithmeticError, match=r"pair \+1 do not lie over one another .* \(tip of the pinion on right"):
+        Strip.of(plane)

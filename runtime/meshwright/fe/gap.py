@@ -143,6 +143,12 @@ class ContactPlane:
         low, high = each[:, 0].max(axis=0), each[:, 1].min(axis=0)
         return np.stack([low - _BEYOND * (high - low), high + _BEYOND * (high - low)])
 
+    @property
+    def shared(self) -> bool:
+        """Whether any part of the plane has both flanks over it: at a fillet one of them has ended."""
+        low, high = self.extents()
+        return bool(np.all(low < high))
+
 
 @dataclass(frozen=True)
 class Footprint:

@@ -159,6 +159,8 @@ def loaded_contact(
     member, direction = loaded_side(gear, load)
     wheel_angle = unloaded_wheel_angle(gear, contacts)
     places = tuple(_Place.of(gear, member, contact, (pinion_angle, wheel_angle)) for contact in contacts)
+    # An edge that meets a fillet carries nothing; where it is first of all, that is told.
+    places = tuple(place for place in places if place.apart == 0.0 or place.plane.shared)
     found = _resolved(gear, places, load, compliance)
     solved = tuple(
         LoadedPair(place.contact, grid, p, float(f), place.apart, place.hertz(float(f)))
@@ -192,9 +194,14 @@ class _Place:
         return cls(gear, contact, angles, abs(lever_arm(member, point, normal)), apart)
 
     @cached_property
+    def plane(self) -> ContactPlane:
+        """Its tangent plane with the flanks over it."""
+        return ContactPlane.of(self.gear, self.contact, self.angles)
+
+    @cached_property
     def strip(self) -> Strip:
         """The strip of the tangent plane there with the flanks over it."""
-        return Strip.of(ContactPlane.of(self.gear, self.contact, self.angles))
+        return Strip.of(self.plane)
 
     @property
     def modulus(self) -> float:

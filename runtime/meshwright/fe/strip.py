@@ -100,7 +100,13 @@ class Strip:
 
     @classmethod
     def of(cls, plane: ContactPlane) -> Strip:
+        """Raises ArithmeticError where the flanks do not lie over one another about the contact."""
         (first, low), (last, high) = plane.extents()
+        if not plane.shared:
+            raise ArithmeticError(
+                f"the flanks of the pair {plane.contact.pairs_later:+d} do not lie over one another about their first "
+                f"contact ({plane.contact.touch.edge or 'tangency'}): turn to another angle or lessen the misalignment"
+            )
         along = np.linspace(first, last, _STATIONS)
         across = _least_gap(plane, along, low, high)
         ends, reach = (float(first), float(last)), float(high - low)
