@@ -478,7 +478,9 @@ FILES = [
 ]
 
 
-@pytest.mark.parametrize(("edit", "reason"), FILES, ids=[f"{k} {reason}" for k, (_, reason) in enumerate(FILES)])
+@pytest.mark.parametrize(
+    ("edit", "reason"), quick(FILES, *FILES[::3]), ids=[f"{k} {reason}" for k, (_, reason) in enumerate(FILES)]
+)
 def test_forged_file_is_refused(record, edit, reason):
     edit(record)
     with pytest.raises(Rejected, match=reason):

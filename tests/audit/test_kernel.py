@@ -25,6 +25,7 @@ def test_a_theorem_reads_as_the_equation_it_proves(objects):
     assert all("Admitted" not in theorem.text and "Axiom" not in theorem.text for theorem in stated)
 
 
+@pytest.mark.validate
 @needs_coq
 def test_proofs_are_accepted_and_a_changed_coefficient_is_not(objects, tmp_path):
     chosen = [item for item in objects.values() if item.get("kind") == "ring_nf" and item["relations"]][:2]

@@ -26,7 +26,7 @@ GENERATED = ROOT / "generated"
     "setting",
     [
         pytest.param({"PYTHONHASHSEED": "1"}, id="other hash seed", marks=pytest.mark.validate),
-        pytest.param({"PYTHONHASHSEED": "2", "BACKEND": "sympy"}, id="SymPy rings"),
+        pytest.param({"PYTHONHASHSEED": "2", "BACKEND": "sympy"}, id="SymPy rings", marks=pytest.mark.validate),
     ],
 )
 def test_root_does_not_depend_on_machine_or_back_end(setting):

@@ -108,6 +108,7 @@ def test_crowned_flanks_lie_on_no_line():
     assert not found.shown and found.plain()["outcome"] == "unknown" and found.reason in ("wide", "effort")
 
 
+@pytest.mark.validate
 def test_what_is_shown_of_every_angle_holds_the_closed_form_and_what_is_not_is_said(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(certified_lines, "BUDGET", 1_500)
     monkeypatch.setattr(certified_lines, "LONGEST", 1 / 40)

@@ -221,7 +221,7 @@ def test_the_mirror_image_is_certified_with_the_other_sign():
     assert left.tca([-1.0]).error[0] / ARCSEC == pytest.approx(mirrored.mean(), abs=1e-9)
 
 
-@pytest.mark.parametrize("name", quick(["recess-action-full", "helical-crowned"], "helical-crowned"))
+@pytest.mark.parametrize("name", quick(["recess-action-full", "helical-crowned"]))
 def test_lanes_show_what_points_show_with_bounds_of_plain_doubles(name):
     drive = Drive.load(name)
     angles = np.linspace(-0.4, 0.4, 50) * drive.pitch()

@@ -34,6 +34,12 @@ def test_commands_agree_on_many_random_designs(part):
     assert not [words for words in told_of if words]
 
 
+@pytest.mark.validate
+@pytest.mark.parametrize("number", [5062, 5071, 5107])
+def test_a_sweep_past_places_that_bodies_cannot_make_says_what_an_analysis_says(number):
+    assert not told([9, number])
+
+
 def test_an_angle_far_from_the_middle_has_its_contact_whether_or_not_others_were_asked_for():
     """Crown-cut bevel gears shifted by 5 µm touch at the heel from end to end of their window."""
     shifted = {"pinion_axial_mm": -0.005}

@@ -153,6 +153,7 @@ def test_first_contact_is_what_brute_force_finds_on_other_designs(name):
     check(name)
 
 
+@pytest.mark.validate
 def test_a_tangency_that_the_edge_of_the_face_precedes_is_not_first(tmp_path, capsys):
     """At −40° the tangency of the equations, −36.64″, overlaps by 6 µm where the face's edge touches at −16.84″."""
     design = tmp_path / "edge.toml"

@@ -23,7 +23,7 @@ DENSITY = MeshDensity(coarse_rows=(4, 8, 12), coarse_fillet_rows=6)
 ANGLES = {"recess-action-full": np.radians(1200.0), "zk-zn-60": 0.2, "plain-zn": 0.0}
 
 
-@pytest.fixture(scope="module", params=ANGLES)
+@pytest.fixture(scope="module", params=quick(ANGLES, "recess-action-full", "plain-zn"))
 def drive_and_gear(request, tmp_path_factory):
     """A drive with a whole blank, its gear pair and a worm angle at which it is in mesh; one blank is all assumed."""
     bare = request.param.startswith("zk")

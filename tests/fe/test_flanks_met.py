@@ -55,6 +55,7 @@ def test_lines_that_miss_the_flank_meet_nothing(pair):
     assert np.isnan(met).all()
 
 
+@pytest.mark.validate
 def test_corners_on_the_edges_of_a_flank_lie_on_it():
     """The mesh ends on the edges: a corner there that rounding puts beyond them would keep the gap of its facets."""
     drive = Drive.load("bevel-hypoid")

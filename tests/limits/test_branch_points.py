@@ -56,6 +56,7 @@ def _polished(residual, y, columns):
     raise AssertionError("no singular point")
 
 
+@pytest.mark.validate
 def test_the_pitchfork_of_crossed_axes_is_found_to_round_off(equations):
     drive = Drive.load("zk-zn-90")
     (point,) = drive.limits().branch_points

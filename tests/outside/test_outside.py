@@ -182,6 +182,7 @@ def test_what_is_wrong_in_c_does_not_hold_and_the_entry_counts_it(header):
     assert drive_folder.undecided_or_wrong(entry).endswith(f" holds, {failed} does not hold, 1 not decided")
 
 
+@pytest.mark.validate
 def test_what_a_c_compiler_refuses_is_said_by_the_function_of_the_description(tmp_path):
     """A function of the description that is called like one which every drive has."""
     path = tmp_path / "mine.py"

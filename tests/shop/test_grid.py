@@ -14,6 +14,7 @@ from meshwright.cli import main
 from meshwright.shop.balls import sizes
 from meshwright.shop.nominal import nominal
 from meshwright.shop.tables import read_csv
+from tests.quick import quick
 
 #: Long, and of the kind of others.
 LATER = pytest.mark.validate
@@ -83,7 +84,7 @@ def test_teeth_and_flanks_are_those_of_one_wheel():
     assert found.flank == ("left",) * 18 + ("right",) * 18
 
 
-@pytest.mark.parametrize("ball", [4.0, 5.5, 7.0])
+@pytest.mark.parametrize("ball", quick([4.0, 5.5, 7.0], 5.5))
 def test_size_over_wires_of_an_involute_worm(involute, ball):
     """inv a_K = inv a_t + d/(2 r_b sin λ_b) − S/(2 r sin λ), R = r_b/cos a_K; groove and thread are equally wide."""
     lead_angle, pressure_angle = math.radians(11.31), math.radians(20.0)

@@ -347,6 +347,7 @@ def test_bad_ranges_end_in_status_2(tmp_path, capsys):
     assert "low:high" in capsys.readouterr().err
 
 
+@pytest.mark.validate
 def test_an_embedded_dask_cluster_writes_the_same_rows(tmp_path):
     pytest.importorskip("distributed")
     sweep.run(_plan(), tmp_path / "a")

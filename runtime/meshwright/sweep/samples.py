@@ -118,8 +118,13 @@ def solve(drive, keys, values, angles, portable=False, device=None):
 
 
 def _without_tangency(drive, found, angles, drive_of):
-    """Fill in where and how the bounded flanks touch at points at which lanes found no tangency, or nearly a line."""
-    open_ = (~found.solved | (found.status == library().MW_CONVERGED_NOISE)) & (found.status != library().MW_BAD_INPUT)
+    """Fill in where and how the bounded flanks touch at points at which lanes found no tangency, or nearly a line; and
+    at all of a sample of which some points are none that bodies can make: how a trace goes on past these depends on
+    its steps.
+    """
+    open_ = ~found.solved | (found.status == library().MW_CONVERGED_NOISE)
+    open_ |= (found.solved & (found.flags & impossible_bits(drive) != 0)).any(axis=1)[:, None]
+    open_ &= found.status != library().MW_BAD_INPUT
     for k in np.flatnonzero(open_.any(axis=1)):
         result, rows = drive_of(k).tca(angles), open_[k]
         found.status[k, rows] = [analysis.status_codes(word)[0] for word in result.only(rows).status]
