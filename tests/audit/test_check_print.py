@@ -17,6 +17,7 @@ GENERATED = Path(__file__).resolve().parents[2] / "generated"
 PRINTED = read_printed(Path(check_print.__file__).parent.with_name("printed.txt").read_text(encoding="utf-8"))
 ZN, SPUR, FACE = "cylindrical_worm_zn_zn", "spherical_convex_spur", "face_worm"
 REGROUND = "cylindrical_worm_zi_zc_reground"
+RING = "internal_gears"
 
 
 def description_of(name):
@@ -127,6 +128,10 @@ WRONG = {
         REGROUND, lambda d: rule(d, "A_gen", lambda _: ["+", "A", "r_hob", minus("r_worm")])),
     "the disc of a reground hob inclined the other way": (
         REGROUND, lambda d: definition(d, "P_hob_y", minus)),
+    "a ring gear turned the other way": (
+        RING, lambda d: turned(d["bodies"][1]["motion"], -1)),
+    "a space of the ring gear on the other side": (
+        RING, lambda d: definition(d, "theta_wheel", minus)),
     "derivative of the cosine": (
         ZN, lambda d: definition(d, "P_hob_x_t_hob", minus)),
 }  # fmt: skip
@@ -167,8 +172,9 @@ def test_a_result_that_gives_one_root_twice_is_refused(tmp_path):
 
 
 def test_abbreviations_hold_for_their_own_section_and_word():
-    (_, found), (_, other) = read_printed(
-        "[a_* x:1 y:2]\nlet p: q_%\nsize $_mm: p | source\n[b_*]\nsize z_mm: p | source\n"
+    (_, first), (patterns, second), (_, other) = read_printed(
+        "[a_* x:1 y:2:!a_b]\nlet p: q_%\nsize $_mm: p | source\n[b_*]\nsize z_mm: p | source\n"
     )
-    assert [statement.sides for statement in found] == [("q_1",), ("q_2",)]
+    assert [found.sides for found in (*first, *second)] == [("q_1",), ("q_2",)]
+    assert is_about("a_c", patterns) and not is_about("a_b", patterns)
     assert other[0].sides == ("p",)

@@ -34,17 +34,16 @@ def read_printed(text: str) -> list[tuple[list[str], list[Statement]]]:
     for part in re.split(r"^(?=\[)", re.sub(r"\n +", " ", text), flags=re.M)[1:]:
         head, *lines = part.splitlines()
         names = head.strip("[]").split()
-        words = [name.split(":") for name in names if not PATTERN.search(name)]
-        found: dict[str, Statement] = {}
-        let: dict[str, object] = {}
-        for word in words or [["$", "%"]]:
-            let = {}
+        words = [name.split(":") for name in names if ":" in name or not PATTERN.search(name)]
+        patterns = [p for name in names if ":" not in name and PATTERN.search(name) for p in alternatives(name)]
+        for word, other, *without in [[*word, *word[:1]][:2] + word[2:] for word in words or [["$", "%"]]]:
+            found: dict[str, Statement] = {}
+            let: dict[str, object] = {}
             for line in lines:
                 if line and not line.startswith("#"):
-                    _read_line(line.replace("$", word[0]).replace("%", word[-1]), let, found)
-        shared = [Statement(LET_ALONE, (name,), (value,), "", "") for name, value in let.items()]
-        patterns = [pattern for name in names if PATTERN.search(name) for pattern in alternatives(name)]
-        sections.append((patterns, list(found.values()) or shared))
+                    _read_line(line.replace("$", word).replace("%", other), let, found)
+            shared = [Statement(LET_ALONE, (name,), (value,), "", "") for name, value in let.items()]
+            sections.append(([*patterns, *without], list(found.values()) or shared))
     return sections
 
 
