@@ -138,7 +138,8 @@ def run(options):
     given, determined, sizes = _determined(family, asked, own)
     if math.isfinite(options.a) and "a" not in family.outline["options"]:
         raise UsageError(f"--a {options.a:g}: the centre distance of this family follows from its teeth; leave it out")
-    name = options.name or "-".join([family.name, *words.values(), f"{options.z[0]}-{abs(options.z[1])}"]).lower()
+    numbered = "-".join([family.name, *words.values(), f"{options.z[0]}-{options.z[1]}"])
+    name = options.name or numbered.lower().replace("--", "-")
     follow = partial(_followed, family, sizes, own) if own else None
     try:
         first = first_design(family, name, words, given, own, determined, follow)
