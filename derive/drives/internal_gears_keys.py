@@ -23,8 +23,11 @@ CLEARANCE = sp.Rational(1, 4)
 #: module.
 CLEAR_OF_FILLET = sp.Rational(1, 10)
 
-#: Rounding of the cutter's tip, over the module; of a narrow tip, the share of a rounding all over it.
-TIP_ROUNDING, ROOM = sp.Rational(1, 5), sp.Rational(4, 5)
+#: Rounding of the cutter's tip, over the module.
+TIP_ROUNDING = sp.Rational(1, 5)
+
+#: The same of a narrow tip, over a rounding all over it.
+ROOM = sp.Rational(4, 5)
 
 shaping_distance = parameter(
     "shaping_center_distance_mm", "a_02", "distance of the axes of ring gear and cutter at full depth", domain=POSITIVE

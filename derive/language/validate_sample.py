@@ -237,8 +237,11 @@ def validate_ratio(drive: Drive, observed: Observed, values: Numbers) -> None:
     )
 
 
-#: Shares of a pitch: by how much the teeth of a sample may be thicker than the spaces, and how much play they may have.
-THICKER, PLAY = 0.05, 0.25
+#: By how much the teeth of a sample may be thicker than the spaces, over the pitch.
+THICKER = 0.05
+
+#: How much play they may have, over the pitch.
+PLAY = 0.25
 
 
 def validate_play(drive: Drive, contacts: Sequence[tuple[Observed, Numbers]]) -> None:

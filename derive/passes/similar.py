@@ -19,8 +19,11 @@ from derive.passes.sample import DIGITS, Completion, NoSample
 #: Numbers closer to zero than this are zero, and ratios closer to a power are one: what rounding leaves is less.
 NEGLIGIBLE = 1e-20
 
-#: What stands for a zero, and for a place of a surface or an argument that the sample does not give.
-OFF, ANYWHERE = mpmath.mpf(1) / 97, mpmath.mpf(3) / 7
+#: What stands for a zero.
+OFF = mpmath.mpf(1) / 97
+
+#: What stands for a place of a surface or an argument that the sample does not give.
+ANYWHERE = mpmath.mpf(3) / 7
 
 #: How much a completed size may be off twice another one, relative, where design systems are solved.
 COMPLETED = 1e-12

@@ -6,7 +6,9 @@ import pytest
 from meshwright.fe.edge_zone import EdgeZone
 from meshwright.fe.gap import ContactGrid
 
-ROWS, LENGTH = 40, 8.0
+#: Rows of cells along a contact of this length, mm.
+ROWS = 40
+LENGTH = 8.0
 
 
 def _strip(columns, mean_pressure, sharp=1.0):

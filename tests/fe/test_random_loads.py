@@ -11,8 +11,11 @@ from meshwright.fe.solids import gear_pair
 from tests.fe.random_loads import broken, random_load
 from tests.quick import full, quick
 
-#: Seeds that are tried, and by the longer run.
-COUNT, MANY = 6, 500
+#: Seeds that are tried.
+COUNT = 6
+
+#: And by the longer run.
+MANY = 500
 #: A worm's tip that cuts a bent piece off the contact; a wheel's tip on the undercut of a pinion.
 BESIDE_EDGES = [
     ("plain-za", 63e3, 30.0), ("plain-za", 63e3, 60.0),

@@ -4,8 +4,11 @@ import numpy as np
 
 from meshwright.report import style
 
-#: The axis of pressure is so much higher than the highest peak of a pair that carries more than this part of the load.
-ROOM, LEAST_SHARE = 1.1, 0.1
+#: A pair counts for the axis of pressure if it carries more than this part of the load.
+LEAST_SHARE = 0.1
+
+#: That axis is so much higher than the highest peak of these pairs.
+ROOM = 1.1
 
 
 def draw(analysis):
